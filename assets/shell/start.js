@@ -1,0 +1,88 @@
+// Loads the app, shows what goes wrong, and offers the app's functions as window.harvester.
+
+// The app writes its state under this key (src/app/bridge/storage.rs).
+const KEY = "harvester-lab.v1";
+const root = document.documentElement;
+const element = (id) => document.getElementById(id);
+
+function stored() {
+  try {
+    return localStorage.getItem(KEY);
+  } catch {
+    return null;
+  }
+}
+
+function fail(title, detail) {
+  // The first failure is the cause; what follows is its echo.
+  if (root.dataset.phase === "failed") return;
+  root.dataset.phase = "failed";
+  const state = stored();
+  element("failure-title").textContent = title;
+  element("failure-detail").textContent = detail;
+  element("failure-advice").textContent = state
+    ? "Your last scenario is kept in this browser. Reload continues it. If that stops again, copy it and start over."
+    : "";
+  element("copy-state").hidden = !state;
+  element("start-over").hidden = !state;
+  element("failure").hidden = false;
+}
+
+async function copyState() {
+  const text = element("state-text");
+  text.value = stored() ?? "";
+  try {
+    await navigator.clipboard.writeText(text.value);
+    element("copy-state").textContent = "Copied";
+  } catch {
+    // No clipboard without permission or https: show the text to copy by hand.
+    text.hidden = false;
+    text.select();
+  }
+}
+
+function startOver() {
+  const state = stored();
+  if (state) localStorage.setItem(`${KEY}.before`, state);
+  localStorage.removeItem(KEY);
+  location.reload();
+}
+
+function missing() {
+  if (typeof WebAssembly !== "object") return "WebAssembly";
+  if (!document.createElement("canvas").getContext("webgl2")) return "WebGL 2";
+  return null;
+}
+
+async function start() {
+  const lacking = missing();
+  if (lacking) {
+    fail("This browser cannot show Harvester Lab", `${lacking} is missing or switched off.`);
+    return;
+  }
+  const app = await import(element("module").href);
+  await app.default({ module_or_path: element("wasm").href });
+  const keep = () => {
+    if (root.dataset.phase === "ready") app.keep();
+  };
+  addEventListener("pagehide", keep);
+  document.addEventListener("visibilitychange", () => document.hidden && keep());
+  window.harvester = Object.freeze({
+    state: app.state,
+    load: app.load,
+    solve: app.solve,
+    frames: app.frames,
+    controls: app.controls,
+  });
+}
+
+window.harvesterShell = Object.freeze({
+  ready: () => {
+    if (root.dataset.phase === "loading") root.dataset.phase = "ready";
+  },
+  fail,
+});
+element("copy-state").addEventListener("click", copyState);
+element("reload").addEventListener("click", () => location.reload());
+element("start-over").addEventListener("click", startOver);
+start().catch((error) => fail("Harvester Lab cannot start", String(error?.message ?? error)));

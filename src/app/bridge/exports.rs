@@ -1,0 +1,77 @@
+//! The functions behind `window.harvester`.
+
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+use super::{RUNNING, Running};
+
+/// Runs `with` on the running app. It fails before the start, and after a crash inside a frame.
+fn running<T>(with: impl FnOnce(&Running) -> Result<T, String>) -> Result<T, JsError> {
+    RUNNING
+        .with_borrow(|slot| slot.as_ref().map_or_else(|| Err("the app is not running".to_owned()), with))
+        .map_err(|message| JsError::new(&message))
+}
+
+const BUSY: &str = "the app is busy";
+
+/// Scenario and results as JSON.
+///
+/// # Errors
+/// When the app is not running.
+#[wasm_bindgen]
+pub fn state() -> Result<String, JsError> {
+    running(|running| Ok(running.app.try_borrow().map_err(|_| BUSY)?.state_json()))
+}
+
+/// Replaces the scenario by one given as JSON.
+///
+/// # Errors
+/// One line that says what is wrong with it; the scenario shown stays.
+#[wasm_bindgen]
+pub fn load(json: &str) -> Result<(), JsError> {
+    running(|running| {
+        running.app.try_borrow_mut().map_err(|_| BUSY)?.load_json(json)?;
+        running.keeper.try_borrow_mut().map_err(|_| BUSY)?.touch();
+        running.context.request_repaint();
+        Ok(())
+    })
+}
+
+/// Answers one request of the solver, as the native command does.
+///
+/// # Errors
+/// One line that names the field, its value and the allowed range.
+#[wasm_bindgen]
+pub async fn solve(json: String) -> Result<String, JsError> {
+    crate::jobs::solve(&json).map_err(|message| JsError::new(&message))
+}
+
+/// Times of the last frames as JSON.
+///
+/// # Errors
+/// When the app is not running.
+#[wasm_bindgen]
+pub fn frames() -> Result<String, JsError> {
+    running(|running| Ok(running.recorder.statistics()))
+}
+
+/// The widgets on the screen as JSON. Empty at first: ask again a frame later.
+///
+/// # Errors
+/// When the app is not running.
+#[wasm_bindgen]
+pub fn controls() -> Result<String, JsError> {
+    running(|running| Ok(running.recorder.controls(&running.context)))
+}
+
+/// Writes the state to local storage at once: the page is about to be hidden or closed.
+///
+/// # Errors
+/// When the app is not running.
+#[wasm_bindgen]
+pub fn keep() -> Result<(), JsError> {
+    running(|running| {
+        let app = running.app.try_borrow().map_err(|_| BUSY)?;
+        running.keeper.try_borrow_mut().map_err(|_| BUSY)?.keep(&app);
+        Ok(())
+    })
+}

@@ -1,0 +1,112 @@
+//! The browser side of the front end: starts the app on the page's canvas, keeps its state in local storage and
+//! answers `window.harvester`.
+//!
+//! The page's own script (`assets/shell/start.js`) shows the loading and failure screens, loads this module and turns
+//! the exported functions into `window.harvester`.
+
+mod controls;
+pub mod exports;
+mod frames;
+mod shell;
+mod storage;
+
+use std::{cell::RefCell, rc::Rc};
+
+use wasm_bindgen::JsCast as _;
+
+use super::App;
+use frames::{Probe, Recorder};
+
+/// What the exported functions need to reach.
+struct Running {
+    app: Rc<RefCell<App>>,
+    context: egui::Context,
+    recorder: Recorder,
+    keeper: Rc<RefCell<storage::Keeper>>,
+}
+
+thread_local! {
+    static RUNNING: RefCell<Option<Running>> = const { RefCell::new(None) };
+}
+
+/// Starts the app on the element with the id `canvas`. Failures are shown on the page, not returned.
+pub fn start() {
+    std::panic::set_hook(Box::new(|info| shell::fail("Harvester Lab stopped", &info.to_string())));
+    let canvas = web_sys::window()
+        .and_then(|window| window.document())
+        .and_then(|document| document.get_element_by_id("canvas"))
+        .and_then(|element| element.dyn_into::<web_sys::HtmlCanvasElement>().ok());
+    let Some(canvas) = canvas else {
+        shell::fail("Harvester Lab cannot start", "the page has no canvas");
+        return;
+    };
+    let options =
+        eframe::WebOptions { webgl_context_option: eframe::WebGlContextOption::WebGl2, ..Default::default() };
+    wasm_bindgen_futures::spawn_local(async move {
+        let runner = eframe::WebRunner::new();
+        let started =
+            runner.start(canvas, options, Box::new(|creation| Ok(Box::new(Page::new(&creation.egui_ctx)))));
+        if let Err(error) = started.await {
+            let reason = error.as_string().unwrap_or_else(|| format!("{error:?}"));
+            shell::fail("Harvester Lab cannot start", &reason);
+        }
+    });
+}
+
+/// The app as eframe sees it.
+struct Page {
+    app: Rc<RefCell<App>>,
+    keeper: Rc<RefCell<storage::Keeper>>,
+    recorder: Recorder,
+    shown: bool,
+}
+
+impl Page {
+    fn new(context: &egui::Context) -> Self {
+        let keeper = storage::Keeper::open();
+        let app = Rc::new(RefCell::new(App::new(context, keeper.stored())));
+        let keeper = Rc::new(RefCell::new(keeper));
+        let recorder = Recorder::default();
+        context.add_plugin(Probe::new(recorder.clone()));
+        RUNNING.set(Some(Running {
+            app: Rc::clone(&app),
+            context: context.clone(),
+            recorder: recorder.clone(),
+            keeper: Rc::clone(&keeper),
+        }));
+        Self { app, keeper, recorder, shown: false }
+    }
+}
+
+impl eframe::App for Page {
+    fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
+        self.recorder.total(frame.info().cpu_usage);
+        let mut app = self.app.borrow_mut();
+        app.logic(ctx);
+        self.keeper.borrow_mut().tick(&app, ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.app.borrow_mut().ui(ui);
+        if !self.shown {
+            self.shown = true;
+            shell::ready();
+        }
+    }
+
+    fn save(&mut self, _storage: &mut dyn eframe::Storage) {
+        self.keeper.borrow_mut().keep(&self.app.borrow());
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        false
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(self)
+    }
+}

@@ -1,0 +1,49 @@
+//! Colours, text sizes and spacing: the only place of the app where a colour is written down.
+//!
+//! Plot colours descend from the Okabe-Ito palette, which stays distinct under the common colour-vision
+//! deficiencies; each theme tunes their lightness to its background. Curves differ in line style as well.
+
+mod palette;
+mod style;
+
+pub use palette::{DARK, LIGHT, Tokens};
+
+/// Puts the look on `context`: fonts' sizes, spacing and colours of one of the two themes.
+pub fn apply(context: &egui::Context, dark: bool) {
+    let theme = if dark { egui::Theme::Dark } else { egui::Theme::Light };
+    context.set_theme(theme);
+    context.set_style_of(theme, style::style(Tokens::of(dark)));
+}
+
+/// The design tokens in force in `ui`.
+pub fn tokens(ui: &egui::Ui) -> &'static Tokens {
+    Tokens::of(ui.visuals().dark_mode)
+}
+
+/// The design tokens in force in `context`.
+pub fn tokens_in(context: &egui::Context) -> &'static Tokens {
+    Tokens::of(context.global_style().visuals.dark_mode)
+}
+
+/// Text sizes in points, at zoom 1. A projector view multiplies them through the zoom factor of the context.
+pub mod size {
+    /// Plain text, numbers and buttons.
+    pub const BODY: f32 = 13.5;
+    /// Hints, legends, tick labels.
+    pub const SMALL: f32 = 11.5;
+    /// Titles of cards and tabs.
+    pub const TITLE: f32 = 14.0;
+    /// The verdict's first word, dialogue titles.
+    pub const HEADING: f32 = 18.0;
+}
+
+/// Zoom factor that makes the page legible from the back row of a lecture hall.
+pub const PROJECTOR_ZOOM: f32 = 1.4;
+
+/// Corner radii in points.
+pub mod radius {
+    /// Cards and dialogues.
+    pub const CARD: u8 = 8;
+    /// Fields, buttons and pills.
+    pub const CONTROL: u8 = 6;
+}

@@ -1,0 +1,228 @@
+//! The harvester itself: clamped beam, tip magnet, fixed magnet and the gap between them, to scale.
+
+use egui::{
+    Align2, Color32, CornerRadius, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, pos2, vec2,
+};
+
+use super::number;
+use crate::app::{fonts, theme};
+
+/// Magnifications of the deflection to choose from when it is too small to be seen.
+const MAGNIFICATIONS: [f64; 8] = [1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+/// Side of a magnet, in beam lengths.
+const MAGNET: f64 = 0.075;
+/// Share of the picture's height that motion should use at most.
+const USED_HEIGHT: f64 = 0.8;
+
+/// A moving picture of the beam. Lengths are in beam lengths; `z` points up.
+///
+/// ```
+/// # use harvester_lab::app::widgets::BeamView;
+/// # fn draw(ui: &mut egui::Ui, shape: &[[f64; 2]]) {
+/// BeamView::new(shape, -0.15).base(0.002).gap(0.49).show(ui, 180.0);
+/// # }
+/// ```
+pub struct BeamView<'a> {
+    shape: &'a [[f64; 2]],
+    fixed_magnet: f64,
+    base: f64,
+    gap: Option<f64>,
+    extremes: &'a [&'a [[f64; 2]]],
+    magnification: Option<f64>,
+}
+
+impl<'a> BeamView<'a> {
+    /// The beam through the points `(x, z)` from the clamp to the tip, relative to the clamp, and the height of the
+    /// fixed magnet's near face above the undeflected beam (negative: below it).
+    pub fn new(shape: &'a [[f64; 2]], fixed_magnet: f64) -> Self {
+        Self { shape, fixed_magnet, base: 0.0, gap: None, extremes: &[], magnification: None }
+    }
+
+    /// How far the clamp is displaced now.
+    pub fn base(mut self, base: f64) -> Self {
+        self.base = base;
+        self
+    }
+
+    /// The open part of the gap between the magnets: 1 at rest, 0 at contact. Drawn as an arrow with a percentage.
+    pub fn gap(mut self, open: f64) -> Self {
+        self.gap = Some(open);
+        self
+    }
+
+    /// Shapes drawn faintly behind, such as the highest and the lowest of a period.
+    pub fn extremes(mut self, extremes: &'a [&'a [[f64; 2]]]) -> Self {
+        self.extremes = extremes;
+        self
+    }
+
+    /// Draws heights larger than lengths by this factor, which is printed. Left alone, the view takes the largest
+    /// round factor at which everything stays in the picture; hold on to one while the picture moves by giving the
+    /// extremes as well.
+    pub fn magnification(mut self, factor: f64) -> Self {
+        self.magnification = Some(factor);
+        self
+    }
+
+    /// Draws over the available width and `height` points.
+    pub fn show(self, ui: &mut Ui, height: f32) -> Response {
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+        let percent = self
+            .gap
+            .map_or(String::new(), |gap| format!(", gap {} % open", number::significant(100.0 * gap, 2)));
+        let enabled = ui.is_enabled();
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::Image, enabled, format!("The beam in motion{percent}"))
+        });
+        if ui.is_rect_visible(rect) {
+            self.paint(ui, rect);
+        }
+        response
+    }
+
+    fn paint(&self, ui: &Ui, rect: Rect) {
+        let tokens = theme::tokens(ui);
+        ui.painter().rect_filled(rect, theme::radius::CONTROL, tokens.inset);
+        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+        let view = View::fit(rect, self);
+        let wall_x = view.at(0.0, 0.0).x;
+        let base = self.base;
+
+        // The clamp, with the hatching of an engineering drawing.
+        let half = 0.32 * rect.height();
+        let middle = view.at(0.0, base).y;
+        let wall = Rect::from_min_max(pos2(wall_x - 9.0, middle - half), pos2(wall_x, middle + half));
+        painter.rect_filled(wall, CornerRadius::same(2), tokens.track);
+        let hatched = painter.with_clip_rect(wall.intersect(rect));
+        for step in 0..40 {
+            let foot = pos2(wall.left(), wall.top() + 7.0 * step as f32);
+            hatched.line_segment([foot, foot + vec2(9.0, -9.0)], Stroke::new(1.0, tokens.ruler));
+        }
+        let rest = [view.at(0.0, 0.0), view.at(1.0, 0.0)];
+        painter.extend(Shape::dashed_line(&rest, Stroke::new(1.0, tokens.track), 4.0, 4.0));
+
+        let curve = |points: &[[f64; 2]]| -> Vec<Pos2> {
+            let finite = points.iter().filter(|p| p[0].is_finite() && p[1].is_finite());
+            finite.map(|p| view.at(p[0], p[1] + base)).collect()
+        };
+        for extreme in self.extremes {
+            painter.add(Shape::line(curve(extreme), Stroke::new(1.5, tokens.numeric.gamma_multiply(0.3))));
+        }
+        let beam = curve(self.shape);
+        let tip = beam.last().copied().unwrap_or(rest[1]);
+        painter.add(Shape::line(beam, Stroke::new(3.5, tokens.numeric)));
+
+        let side = view.magnet;
+        let facing = if self.fixed_magnet < 0.0 { 1.0 } else { -1.0 };
+        let fixed_face = view.at(1.0, self.fixed_magnet + base);
+        let moving = Rect::from_center_size(tip, vec2(side, side));
+        let fixed = Rect::from_center_size(fixed_face + vec2(0.0, 0.5 * side * facing), vec2(side, side));
+        // The sides that face each other are the like poles: that is why they repel.
+        magnet(&painter, moving, tokens.theory, tokens.exact, facing);
+        magnet(&painter, fixed, tokens.theory, tokens.exact, -facing);
+        let moving_face = tip + vec2(0.0, 0.5 * side * facing);
+        self.gap_arrow(&painter, ui, tip.x + 0.5 * side + 9.0, moving_face.y, fixed_face.y, rect);
+        let note = if view.magnification > 1.0 {
+            format!("heights × {}", number::significant(view.magnification, 2).trim_end_matches(".0"))
+        } else {
+            "to scale".to_owned()
+        };
+        let at = rect.left_bottom() + vec2(10.0, -7.0);
+        painter.text(at, Align2::LEFT_BOTTOM, note, fonts::regular(theme::size::SMALL), tokens.text_weak);
+    }
+
+    fn gap_arrow(&self, painter: &Painter, ui: &Ui, x: f32, from: f32, to: f32, rect: Rect) {
+        let Some(gap) = self.gap.filter(|gap| gap.is_finite()) else { return };
+        let tokens = theme::tokens(ui);
+        let colour = if gap < 0.2 { tokens.danger } else { tokens.text_weak };
+        let stroke = Stroke::new(1.3, colour);
+        painter.line_segment([pos2(x, from), pos2(x, to)], stroke);
+        let down = if to > from { 1.0 } else { -1.0 };
+        if (to - from).abs() > 12.0 {
+            for (tip, way) in [(from, down), (to, -down)] {
+                let barb = |side: f32| [pos2(x, tip), pos2(x + 3.5 * side, tip + 5.0 * way)];
+                painter.line_segment(barb(1.0), stroke);
+                painter.line_segment(barb(-1.0), stroke);
+            }
+        }
+        let font = fonts::regular(theme::size::SMALL);
+        let middle = (0.5 * (from + to)).clamp(rect.top() + 18.0, rect.bottom() - 18.0);
+        painter.text(pos2(x + 7.0, middle - 1.0), Align2::LEFT_BOTTOM, "gap", font.clone(), tokens.text_weak);
+        let text = format!("{:.0} %", (100.0 * gap).max(0.0));
+        painter.text(pos2(x + 7.0, middle + 1.0), Align2::LEFT_TOP, text, font, colour);
+    }
+}
+
+/// From beam lengths to the screen.
+struct View {
+    origin: Pos2,
+    scale: f64,
+    magnification: f64,
+    /// Side of a magnet, points.
+    magnet: f32,
+}
+
+impl View {
+    fn fit(rect: Rect, beam: &BeamView<'_>) -> Self {
+        let left = rect.left() + 22.0;
+        let scale = f64::from((rect.right() - 58.0 - left).max(30.0));
+        let magnet = (MAGNET * scale).clamp(8.0, 16.0) as f32;
+        let heights =
+            beam.extremes.iter().flat_map(|shape| shape.iter()).chain(beam.shape).map(|p| p[1] + beam.base);
+        let heights = heights.filter(|z| z.is_finite()).chain([0.0, beam.fixed_magnet + beam.base]);
+        let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), z| (low.min(z), high.max(z)));
+        let room = USED_HEIGHT * f64::from(rect.height()) - 2.0 * f64::from(magnet);
+        let fits = |factor: &&f64| (high - low) * scale * **factor <= room;
+        let largest = MAGNIFICATIONS.iter().rev().find(fits).copied();
+        let magnification = beam.magnification.or(largest).unwrap_or(1.0);
+        let middle = 0.5 * (low + high) * scale * magnification;
+        Self { origin: pos2(left, rect.center().y + middle as f32), scale, magnification, magnet }
+    }
+
+    fn at(&self, x: f64, z: f64) -> Pos2 {
+        self.origin + vec2((x * self.scale) as f32, (-z * self.scale * self.magnification) as f32)
+    }
+}
+
+/// A magnet of two halves; the one in `near` colour faces downwards when `facing` is positive.
+fn magnet(painter: &Painter, rect: Rect, far: Color32, near: Color32, facing: f32) {
+    let (upper, lower) = if facing > 0.0 { (far, near) } else { (near, far) };
+    let (top, bottom) = (
+        Rect { max: pos2(rect.max.x, rect.center().y), ..rect },
+        Rect { min: pos2(rect.min.x, rect.center().y), ..rect },
+    );
+    painter.rect_filled(top, CornerRadius { nw: 2, ne: 2, ..CornerRadius::ZERO }, upper);
+    painter.rect_filled(bottom, CornerRadius { sw: 2, se: 2, ..CornerRadius::ZERO }, lower);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::widgets::harness::Harness;
+
+    #[test]
+    fn everything_fits_and_small_motion_is_magnified() {
+        let shape: Vec<[f64; 2]> =
+            (0..=20).map(|i| [f64::from(i) / 20.0, 1e-3 * f64::from(i * i) / 400.0]).collect();
+        let rect = Rect::from_min_size(Pos2::ZERO, vec2(280.0, 200.0));
+        for fixed in [-0.15, -0.004, 0.15] {
+            let view = View::fit(rect, &BeamView::new(&shape, fixed));
+            assert!(view.magnification >= 1.0);
+            for [x, z] in shape.iter().copied().chain([[1.0, fixed]]) {
+                assert!(rect.contains(view.at(x, z)), "{fixed}: {x}, {z}");
+            }
+        }
+        let strong = View::fit(rect, &BeamView::new(&shape, -0.004));
+        assert!(strong.magnification > 5.0);
+    }
+
+    #[test]
+    fn it_announces_the_gap_and_survives_bad_numbers() {
+        let mut harness = Harness::new(300.0, 260.0);
+        let shape = [[0.0, 0.0], [0.5, f64::NAN], [1.0, 0.05]];
+        harness.settle(|ui| {
+            BeamView::new(&shape, -0.15).gap(0.49).extremes(&[&shape]).magnification(1.0).show(ui, 200.0);
+        });
+        harness.find(egui::Role::Image, "The beam in motion, gap 49 % open");
+    }
+}

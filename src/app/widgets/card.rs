@@ -1,0 +1,172 @@
+//! A titled panel with rounded corners.
+
+use egui::{Align2, Layout, Rect, Response, Sense, Ui, UiBuilder, pos2, vec2};
+
+use super::icon::{self, BUTTON_SIDE, Icon};
+use crate::app::{fonts, theme};
+
+/// Height of the title row and inner margin, points.
+const TITLE_ROW: f32 = 34.0;
+const MARGIN: f32 = 12.0;
+
+/// A panel with a title, a quiet hint at the right and icon buttons.
+///
+/// ```
+/// # use harvester_lab::app::widgets::{Card, Icon};
+/// # fn draw(ui: &mut egui::Ui) {
+/// let card = Card::new("Phase portrait").hint("click to start there").button(Icon::Enlarge, "Enlarge");
+/// let shown = card.show(ui, |ui| ui.label("a plot"));
+/// if shown.pressed == Some(Icon::Enlarge) { /* fill the page with it */ }
+/// # }
+/// ```
+pub struct Card<'a> {
+    title: &'a str,
+    hint: &'a str,
+    buttons: Vec<(Icon, &'a str)>,
+    height: Option<f32>,
+    hugging: bool,
+}
+
+/// What a card's frame did, beside its contents.
+pub struct CardResponse<R> {
+    /// What the contents returned.
+    pub inner: R,
+    /// The icon button that was pressed.
+    pub pressed: Option<Icon>,
+    /// The whole card.
+    pub rect: Rect,
+}
+
+impl<'a> Card<'a> {
+    /// A card that fills the available space. `title` identifies its buttons, so it must be unique among siblings.
+    pub fn new(title: &'a str) -> Self {
+        Self { title, hint: "", buttons: Vec::new(), height: None, hugging: false }
+    }
+
+    /// Quiet text right of the title; left out where there is no room for it.
+    pub fn hint(mut self, hint: &'a str) -> Self {
+        self.hint = hint;
+        self
+    }
+
+    /// Adds an icon button at the right end; `label` is its tooltip and its accessible name.
+    pub fn button(mut self, icon: Icon, label: &'a str) -> Self {
+        self.buttons.push((icon, label));
+        self
+    }
+
+    /// A fixed height in points instead of all that is available.
+    pub fn height(mut self, height: f32) -> Self {
+        self.height = Some(height);
+        self
+    }
+
+    /// As tall as its contents.
+    pub fn hugging(mut self) -> Self {
+        self.hugging = true;
+        self
+    }
+
+    /// Draws the card; the contents get the rectangle under the title.
+    pub fn show<R>(self, ui: &mut Ui, add_contents: impl FnOnce(&mut Ui) -> R) -> CardResponse<R> {
+        let available = ui.available_rect_before_wrap();
+        let height = self.height.unwrap_or(available.height()).max(TITLE_ROW + 2.0 * MARGIN);
+        let mut rect = Rect::from_min_size(available.min, vec2(available.width(), height));
+        let background = ui.painter().add(egui::Shape::Noop);
+        let top = if self.title.is_empty() { MARGIN } else { TITLE_ROW };
+        let body = Rect::from_min_max(rect.min + vec2(MARGIN, top), rect.max - vec2(MARGIN, MARGIN));
+        let builder =
+            UiBuilder::new().max_rect(body).layout(Layout::top_down(egui::Align::Min)).id_salt(self.title);
+        let mut child = ui.new_child(builder);
+        if !self.hugging {
+            child.shrink_clip_rect(rect);
+        }
+        let inner = add_contents(&mut child);
+        if self.hugging {
+            rect.max.y = child.min_rect().bottom() + MARGIN;
+        }
+        let tokens = theme::tokens(ui);
+        let outline =
+            egui::Stroke::new(1.0, if tokens.dark { egui::Color32::TRANSPARENT } else { tokens.outline });
+        let shape = egui::epaint::RectShape::new(
+            rect,
+            theme::radius::CARD,
+            tokens.card,
+            outline,
+            egui::StrokeKind::Inside,
+        );
+        ui.painter().set(background, shape);
+        let pressed = if self.title.is_empty() { None } else { self.title_row(ui, rect) };
+        ui.allocate_rect(rect, Sense::hover());
+        CardResponse { inner, pressed, rect }
+    }
+
+    fn title_row(&self, ui: &Ui, rect: Rect) -> Option<Icon> {
+        let tokens = theme::tokens(ui);
+        let middle = rect.top() + 0.5 * TITLE_ROW + 1.0;
+        let at = pos2(rect.left() + MARGIN, middle);
+        let title = ui.painter().text(
+            at,
+            Align2::LEFT_CENTER,
+            self.title,
+            fonts::semibold(theme::size::TITLE),
+            tokens.text_strong,
+        );
+        let mut right = rect.right() - 5.0;
+        let mut pressed = None;
+        for (index, (icon, label)) in self.buttons.iter().enumerate().rev() {
+            let place = Rect::from_center_size(
+                pos2(right - 0.5 * BUTTON_SIDE, middle),
+                egui::Vec2::splat(BUTTON_SIDE),
+            );
+            let id = ui.make_persistent_id((self.title, "card button", index));
+            let response: Response = ui.interact(place, id, Sense::click());
+            icon::paint_button(ui, place, &response, *icon, &format!("{label}: {}", self.title));
+            if response.clicked() {
+                pressed = Some(*icon);
+            }
+            response.on_hover_text(*label);
+            right = place.left() - 2.0;
+        }
+        let font = fonts::regular(theme::size::SMALL);
+        let hint = ui.painter().layout_no_wrap(self.hint.to_owned(), font, tokens.text_weak);
+        let left = right - 4.0 - hint.size().x;
+        if left > title.right() + 14.0 {
+            ui.painter().galley(pos2(left, middle - 0.5 * hint.size().y), hint, tokens.text_weak);
+        }
+        pressed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::widgets::harness::Harness;
+
+    #[test]
+    fn contents_stay_inside_and_the_button_reports() {
+        let mut harness = Harness::new(500.0, 300.0);
+        let mut pressed = None;
+        let mut draw = |ui: &mut Ui| {
+            let card =
+                Card::new("Phase portrait").hint("a hint").button(Icon::Enlarge, "Enlarge").height(200.0);
+            let shown = card.show(ui, |ui| ui.available_rect_before_wrap());
+            assert!(shown.rect.contains_rect(shown.inner));
+            assert_eq!(shown.rect.height(), 200.0);
+            pressed = pressed.or(shown.pressed);
+        };
+        harness.settle(&mut draw);
+        let button = harness.find(egui::Role::Button, "Enlarge: Phase portrait").bounds.center();
+        harness.click(button, &mut draw);
+        assert_eq!(pressed, Some(Icon::Enlarge));
+    }
+
+    #[test]
+    fn a_hugging_card_is_as_tall_as_its_contents() {
+        let mut harness = Harness::new(500.0, 300.0);
+        harness.settle(|ui| {
+            let shown = Card::new("Beam").hugging().show(ui, |ui| ui.allocate_space(vec2(10.0, 50.0)));
+            assert_eq!(shown.rect.height(), TITLE_ROW + 50.0 + MARGIN);
+        });
+    }
+}

@@ -1,0 +1,110 @@
+//! Frames of an egui context without a window, fed with synthetic input.
+
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Ui, vec2};
+
+use crate::app::{fonts, theme};
+
+/// A context with the app's fonts and look, and a clock.
+pub(super) struct Harness {
+    pub(super) context: egui::Context,
+    size: egui::Vec2,
+    time: f64,
+    /// Role, label, value and bounds of every widget of the last frame.
+    pub(super) nodes: Vec<Node>,
+}
+
+/// One widget as the accessibility tree shows it.
+#[derive(Debug, Clone)]
+pub(super) struct Node {
+    pub(super) role: egui::Role,
+    pub(super) label: String,
+    pub(super) number: Option<f64>,
+    pub(super) bounds: Rect,
+}
+
+impl Harness {
+    pub(super) fn new(width: f32, height: f32) -> Self {
+        let context = egui::Context::default();
+        fonts::install(&context);
+        theme::apply(&context, true);
+        context.enable_accesskit();
+        Self { context, size: vec2(width, height), time: 0.0, nodes: Vec::new() }
+    }
+
+    /// One frame, 1/60 s after the previous, with these events.
+    pub(super) fn frame(&mut self, events: Vec<Event>, mut draw: impl FnMut(&mut Ui)) {
+        self.time += 1.0 / 60.0;
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, self.size)),
+            time: Some(self.time),
+            focused: true,
+            events,
+            ..RawInput::default()
+        };
+        let mut output = self.context.run_ui(input, |ui| {
+            egui::CentralPanel::default().show(ui, |ui| draw(ui));
+        });
+        if let Some(update) = output.platform_output.accesskit_update.take() {
+            self.nodes = update.nodes.iter().map(|(_, node)| Node::read(node)).collect();
+        }
+        output.drop_without_applying_deltas();
+    }
+
+    /// Enough frames without input for layout and hit testing to settle.
+    pub(super) fn settle(&mut self, mut draw: impl FnMut(&mut Ui)) {
+        for _ in 0..3 {
+            self.frame(Vec::new(), &mut draw);
+        }
+    }
+
+    /// The first widget of that role whose label starts with `label`.
+    pub(super) fn find(&self, role: egui::Role, label: &str) -> Node {
+        let found = self.nodes.iter().find(|node| node.role == role && node.label.starts_with(label));
+        found.unwrap_or_else(|| panic!("no {role:?} {label:?} in {:#?}", self.nodes)).clone()
+    }
+
+    /// Presses and releases the primary button at `position`.
+    pub(super) fn click(&mut self, position: Pos2, mut draw: impl FnMut(&mut Ui)) {
+        self.frame(vec![Event::PointerMoved(position)], &mut draw);
+        self.frame(vec![button(position, true)], &mut draw);
+        self.frame(vec![button(position, false)], &mut draw);
+    }
+
+    /// Drags from one place to another in a few steps, and lets go.
+    pub(super) fn drag(&mut self, from: Pos2, to: Pos2, mut draw: impl FnMut(&mut Ui)) {
+        self.frame(vec![Event::PointerMoved(from)], &mut draw);
+        self.frame(vec![button(from, true)], &mut draw);
+        for step in 1..=4 {
+            self.frame(vec![Event::PointerMoved(from.lerp(to, step as f32 / 4.0))], &mut draw);
+        }
+        self.frame(vec![button(to, false)], &mut draw);
+    }
+
+    /// Presses a key with modifiers held.
+    pub(super) fn key(&mut self, key: Key, modifiers: Modifiers, mut draw: impl FnMut(&mut Ui)) {
+        for pressed in [true, false] {
+            let event = Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
+            let held = if pressed { modifiers } else { Modifiers::NONE };
+            self.frame(vec![Event::ModifiersChanged(held), event], &mut draw);
+        }
+    }
+
+    /// Types text into whatever has the keyboard.
+    pub(super) fn text(&mut self, text: &str, draw: impl FnMut(&mut Ui)) {
+        self.frame(vec![Event::Text(text.to_owned())], draw);
+    }
+}
+
+impl Node {
+    fn read(node: &egui::accesskit::Node) -> Self {
+        let bounds = node.bounds().map_or(Rect::NOTHING, |b| {
+            Rect::from_min_max(Pos2::new(b.x0 as f32, b.y0 as f32), Pos2::new(b.x1 as f32, b.y1 as f32))
+        });
+        let label = node.label().or(node.value()).unwrap_or_default().to_owned();
+        Self { role: node.role(), label, number: node.numeric_value(), bounds }
+    }
+}
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::default() }
+}

@@ -1,0 +1,132 @@
+//! The kinds of curves the app draws, and how each looks, in plots and legends alike.
+
+use egui::{Color32, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+
+use crate::app::fonts;
+use crate::app::theme::{self, Tokens};
+
+/// What a curve or a set of points stands for. Each kind has its colour, and a line style that tells it apart
+/// without colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Series {
+    /// Computed trajectory: a solid line.
+    Numeric,
+    /// First-order theory: dots.
+    Theory,
+    /// Published boundary: fine dots.
+    Published,
+    /// Coupled-mode boundary: dashes.
+    Coupled,
+    /// Boundary from Floquet multipliers: a thick solid line.
+    Exact,
+    /// Poincaré points.
+    Poincare,
+    /// Pinned for comparison: a thin grey line.
+    Ghost,
+}
+
+/// How the pen moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Pen {
+    /// A line of this width, points.
+    Line(f32),
+    /// Dashes of this width and length, points.
+    Dashes(f32, f32),
+    /// Dots of this radius and spacing, points.
+    Dots(f32, f32),
+    /// Points of this radius where the data are, points.
+    Points(f32),
+}
+
+impl Series {
+    /// The colour in this theme.
+    pub fn colour(self, tokens: &Tokens) -> Color32 {
+        match self {
+            Self::Numeric => tokens.numeric,
+            Self::Theory => tokens.theory,
+            Self::Published => tokens.published,
+            Self::Coupled => tokens.coupled,
+            Self::Exact => tokens.exact,
+            Self::Poincare => tokens.poincare,
+            Self::Ghost => tokens.ghost,
+        }
+    }
+
+    /// The line style.
+    pub fn pen(self) -> Pen {
+        match self {
+            Self::Numeric => Pen::Line(2.0),
+            Self::Theory => Pen::Dots(2.6, 11.0),
+            Self::Published => Pen::Dots(1.7, 7.0),
+            Self::Coupled => Pen::Dashes(1.8, 9.0),
+            Self::Exact => Pen::Line(3.0),
+            Self::Poincare => Pen::Points(3.5),
+            Self::Ghost => Pen::Line(1.0),
+        }
+    }
+}
+
+/// A sample of the curve and its name.
+pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
+    let tokens = theme::tokens(ui);
+    let galley =
+        ui.painter().layout_no_wrap(label.to_owned(), fonts::regular(theme::size::SMALL), tokens.text_weak);
+    let (rect, response) = ui.allocate_exact_size(vec2(28.0 + galley.size().x, 18.0), Sense::hover());
+    let enabled = ui.is_enabled();
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, label));
+    let (left, right) = (pos2(rect.left() + 1.0, rect.center().y), pos2(rect.left() + 21.0, rect.center().y));
+    let colour = series.colour(tokens);
+    match series.pen() {
+        Pen::Line(width) => {
+            ui.painter().line_segment([left, right], Stroke::new(width, colour));
+        }
+        Pen::Dashes(width, length) => {
+            let gap = 0.6 * length;
+            ui.painter().extend(Shape::dashed_line(&[left, right], Stroke::new(width, colour), length, gap));
+        }
+        Pen::Dots(radius, _) => {
+            for step in 0..3 {
+                let at = left.lerp(right, 0.14 + 0.36 * step as f32);
+                ui.painter().circle_filled(at, radius, colour);
+            }
+        }
+        Pen::Points(radius) => {
+            ui.painter().circle_filled(left.lerp(right, 0.5), radius, colour);
+        }
+    }
+    let at = pos2(rect.left() + 27.0, rect.center().y - 0.5 * galley.size().y);
+    ui.painter().galley(at, galley, tokens.text_weak);
+    response
+}
+
+/// A row of samples; it breaks where it is too narrow.
+pub fn legend(ui: &mut Ui, entries: &[(Series, &str)]) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(14.0, 0.0);
+        for (series, label) in entries {
+            legend_entry(ui, *series, label);
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::widgets::harness::Harness;
+
+    #[test]
+    fn boundaries_differ_without_colour() {
+        let pens = [Series::Published, Series::Coupled, Series::Exact, Series::Ghost].map(Series::pen);
+        for (index, pen) in pens.iter().enumerate() {
+            assert!(!pens[index + 1..].contains(pen));
+        }
+    }
+
+    #[test]
+    fn entries_are_labelled() {
+        let mut harness = Harness::new(400.0, 100.0);
+        harness
+            .settle(|ui| legend(ui, &[(Series::Theory, "first-order theory"), (Series::Coupled, "coupled")]));
+        harness.find(egui::Role::Label, "first-order theory");
+    }
+}

@@ -1,0 +1,24 @@
+//! Widgets of the app: each takes plain numbers and texts and reports what the user did; none knows the model.
+
+pub mod badge;
+pub mod beam_view;
+pub mod card;
+pub mod fold;
+pub mod icon;
+pub mod legend;
+pub mod number;
+pub mod parameter_slider;
+pub mod plot_style;
+pub mod tabs;
+
+#[cfg(test)]
+mod harness;
+
+pub use badge::{BadgeKind, badge};
+pub use beam_view::BeamView;
+pub use card::{Card, CardResponse};
+pub use fold::Fold;
+pub use icon::{Icon, icon_button};
+pub use legend::{Series, legend_entry};
+pub use parameter_slider::{Mark, ParameterSlider, SliderResponse};
+pub use tabs::{chips, tabs};

@@ -1,0 +1,293 @@
+//! The control for one number: name, symbol, exact value, track with marks.
+
+mod field;
+mod mapping;
+mod marks;
+#[cfg(test)]
+mod tests;
+mod track;
+
+use std::ops::RangeInclusive;
+
+use egui::{Align2, Rect, Response, Sense, Ui, pos2, vec2};
+
+use self::mapping::Mapping;
+use super::icon::{self, Icon};
+use crate::app::{fonts, theme};
+
+pub use marks::Mark;
+
+/// Height of the row with the name, of the track's grab area, and widths of the value field, points.
+const NAME_ROW: f32 = 26.0;
+const TRACK_ROW: f32 = 24.0;
+const FIELD: f32 = 84.0;
+const COMPACT_FIELD: f32 = 70.0;
+
+/// What one frame of a slider did.
+#[derive(Debug, Clone)]
+pub struct SliderResponse {
+    /// The value is another than before the frame.
+    pub changed: bool,
+    /// The user is done for now: refine whatever was computed coarsely.
+    pub released: bool,
+    /// Why the typed text was refused; also shown under the control.
+    pub error: Option<String>,
+    /// The track, for focus and geometry.
+    pub track: Response,
+}
+
+/// A slider with a name, an exact value to type, marks, keyboard steps and a reset.
+///
+/// ```
+/// # use harvester_lab::app::widgets::ParameterSlider;
+/// # fn draw(ui: &mut egui::Ui, damping: &mut f64) {
+/// let response = ParameterSlider::new("Damping", "α", damping, 1e-5..=1e-1).logarithmic().show(ui);
+/// if response.changed { /* compute */ }
+/// # }
+/// ```
+pub struct ParameterSlider<'a> {
+    name: &'a str,
+    symbol: &'a str,
+    value: &'a mut f64,
+    range: RangeInclusive<f64>,
+    logarithmic: bool,
+    floor: Option<f64>,
+    marks: &'a [Mark],
+    default: Option<f64>,
+    unit: &'a str,
+    tooltip: &'a str,
+    equation: &'a str,
+    secondary: &'a str,
+    compact: bool,
+}
+
+impl<'a> ParameterSlider<'a> {
+    /// A linear slider for `value` within `range`; `name` also identifies it, so it must be unique among siblings.
+    pub fn new(name: &'a str, symbol: &'a str, value: &'a mut f64, range: RangeInclusive<f64>) -> Self {
+        Self {
+            name,
+            symbol,
+            value,
+            range,
+            logarithmic: false,
+            floor: None,
+            marks: &[],
+            default: None,
+            unit: "",
+            tooltip: "",
+            equation: "",
+            secondary: "",
+            compact: false,
+        }
+    }
+
+    /// Spreads values by ratio. A range that starts at zero gets a stop for zero left of `end / 10⁴`.
+    pub fn logarithmic(mut self) -> Self {
+        self.logarithmic = true;
+        self
+    }
+
+    /// Like [`Self::logarithmic`], for a range that starts at zero: `smallest` is the smallest positive value that
+    /// the track reaches. Smaller ones can be typed.
+    pub fn logarithmic_from(mut self, smallest: f64) -> Self {
+        self.logarithmic = true;
+        self.floor = Some(smallest);
+        self
+    }
+
+    /// Values to snap to on a click, most important first.
+    pub fn marks(mut self, marks: &'a [Mark]) -> Self {
+        self.marks = marks;
+        self
+    }
+
+    /// The value to which a double click on the name, or the reset button, returns.
+    pub fn default_value(mut self, default: f64) -> Self {
+        self.default = Some(default);
+        self
+    }
+
+    /// The unit, shown after the value; none for dimensionless numbers.
+    pub fn unit(mut self, unit: &'a str) -> Self {
+        self.unit = unit;
+        self
+    }
+
+    /// What the parameter is, in a sentence, shown while the pointer rests on the name.
+    pub fn tooltip(mut self, tooltip: &'a str) -> Self {
+        self.tooltip = tooltip;
+        self
+    }
+
+    /// Where the paper defines the parameter, such as `Eq. 8`; part of the tooltip.
+    pub fn equation(mut self, equation: &'a str) -> Self {
+        self.equation = equation;
+        self
+    }
+
+    /// A quiet line under the track, such as the frequency in hertz.
+    pub fn secondary(mut self, secondary: &'a str) -> Self {
+        self.secondary = secondary;
+        self
+    }
+
+    /// One row only: name, short track, value. Marks and the secondary line are left out.
+    pub fn compact(mut self) -> Self {
+        self.compact = true;
+        self
+    }
+
+    /// Draws the control over the available width.
+    pub fn show(self, ui: &mut Ui) -> SliderResponse {
+        let id = ui.make_persistent_id(("parameter slider", self.name));
+        let mapping = if self.logarithmic {
+            Mapping::logarithmic(self.range.clone(), self.floor)
+        } else {
+            Mapping::linear(self.range.clone())
+        };
+        let width = ui.available_width();
+        let rows = Rows::arrange(ui, &self, &mapping, width);
+        let before = *self.value;
+
+        let reset = self.name_row(ui, id, &rows);
+        let track = track::interact(ui, id, rows.track, self.name, before, &mapping, self.marks);
+        let marked = if self.compact {
+            None
+        } else {
+            marks::show(ui, id, self.name, &mapping, self.marks, track::rail(rows.track), rows.all)
+        };
+        track::paint(ui, &track, rows.track);
+        let subject = field::Subject { name: self.name, symbol: self.symbol, unit: self.unit };
+        let memory_id = id.with("field memory");
+        let mut memory = field::Memory::load(ui, memory_id);
+        let typed = field::show(ui, id.with("field"), rows.field, &subject, before, &self.range, &mut memory);
+
+        let direct = reset.or(marked).or(typed);
+        let new = direct.or(track.value).unwrap_or(before);
+        let changed = new != before;
+        if changed {
+            *self.value = new;
+            memory.error = None;
+        }
+        if let Some(bottom) = rows.secondary.filter(|_| !self.secondary.is_empty()) {
+            let font = fonts::regular(theme::size::SMALL);
+            ui.painter().text(bottom, Align2::LEFT_TOP, self.secondary, font, theme::tokens(ui).text_weak);
+        }
+        let error = memory.error.clone();
+        memory.store(ui, memory_id);
+        if let Some(message) = &error {
+            complain(ui, message);
+        }
+        SliderResponse { changed, released: track.released || direct.is_some(), error, track: track.response }
+    }
+
+    /// Name, symbol and reset button; returns the default when it was asked for.
+    fn name_row(&self, ui: &Ui, id: egui::Id, rows: &Rows) -> Option<f64> {
+        let tokens = theme::tokens(ui);
+        let font = fonts::regular(theme::size::BODY);
+        let symbol_at = pos2(rows.symbol, rows.name.center().y);
+        let symbol =
+            ui.painter().text(symbol_at, Align2::RIGHT_CENTER, self.symbol, font.clone(), tokens.text_weak);
+        let mut job =
+            egui::text::LayoutJob::simple_singleline(self.name.to_owned(), font, tokens.text_strong);
+        job.wrap =
+            egui::text::TextWrapping::truncate_at_width((symbol.left() - 6.0 - rows.name.left()).max(10.0));
+        let galley = ui.painter().layout_job(job);
+        let name = Align2::LEFT_CENTER.anchor_size(rows.name.left_center(), galley.size());
+        ui.painter().galley(name.min, galley, tokens.text_strong);
+
+        let label = ui.interact(name.expand2(vec2(2.0, 4.0)), id.with("name"), Sense::CLICK);
+        let enabled = ui.is_enabled();
+        label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, enabled, self.name));
+        let restored = label.double_clicked();
+        if !self.tooltip.is_empty() {
+            label.on_hover_ui(|ui| self.explain(ui));
+        }
+        let default = self.default.filter(|default| *default != *self.value)?;
+        let button = ui.interact(rows.reset, id.with("reset"), Sense::CLICK);
+        let hint = format!("Reset {} to {}", self.name, super::number::display(default));
+        icon::paint_button(ui, rows.reset, &button, Icon::Reset, &hint);
+        let pressed = button.clicked();
+        button.on_hover_text(hint);
+        (pressed || restored).then_some(default)
+    }
+
+    /// The tooltip of the name.
+    fn explain(&self, ui: &mut Ui) {
+        let tokens = theme::tokens(ui);
+        ui.label(
+            egui::RichText::new(format!("{} {}", self.name, self.symbol))
+                .font(fonts::semibold(theme::size::BODY)),
+        );
+        ui.label(self.tooltip);
+        let mut facts: Vec<String> = Vec::new();
+        if !self.equation.is_empty() {
+            facts.push(self.equation.to_owned());
+        }
+        facts.push(if self.unit.is_empty() {
+            "dimensionless".to_owned()
+        } else {
+            format!("in {}", self.unit)
+        });
+        facts.push(field::range_text(&self.range, ""));
+        ui.label(egui::RichText::new(facts.join("  ·  ")).small().color(tokens.text_weak));
+    }
+}
+
+/// Where the parts of the control go.
+struct Rows {
+    all: Rect,
+    name: Rect,
+    /// Right edge of the symbol.
+    symbol: f32,
+    reset: Rect,
+    field: Rect,
+    track: Rect,
+    secondary: Option<egui::Pos2>,
+}
+
+impl Rows {
+    /// Takes the room the control needs and divides it.
+    fn arrange(ui: &mut Ui, slider: &ParameterSlider<'_>, mapping: &Mapping, width: f32) -> Self {
+        let field = if slider.compact { COMPACT_FIELD } else { FIELD };
+        let width = width.max(170.0);
+        if slider.compact {
+            let (all, _) = ui.allocate_exact_size(vec2(width, NAME_ROW), Sense::hover());
+            let split = all.left() + 0.38 * width;
+            let field = Rect::from_min_max(pos2(all.right() - field, all.top()), all.max);
+            let reset = Rect::from_center_size(pos2(field.left() - 10.0, all.center().y), vec2(18.0, 22.0));
+            let track =
+                Rect::from_min_max(pos2(split + 4.0, all.top()), pos2(reset.left() - 1.0, all.bottom()));
+            let name = Rect::from_min_max(all.min, pos2(split, all.bottom()));
+            return Self { all, name, symbol: split, reset, field, track, secondary: None };
+        }
+        let top_left = ui.cursor().min;
+        let row = Rect::from_min_size(top_left, vec2(width, NAME_ROW));
+        let track = Rect::from_min_size(row.left_bottom() + vec2(0.0, 1.0), vec2(width, TRACK_ROW));
+        let rail = track::rail(track);
+        let marks = marks::height(ui.painter(), mapping, slider.marks, rail, row);
+        let below = if slider.marks.is_empty() { track.bottom() } else { rail.bottom() + marks + 3.0 };
+        let secondary = if slider.secondary.is_empty() { 0.0 } else { 16.0 };
+        let height = below + secondary - top_left.y;
+        let (all, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+        let field = Rect::from_min_max(pos2(row.right() - field, row.top()), row.max);
+        let reset = Rect::from_center_size(pos2(field.left() - 16.0, row.center().y), vec2(24.0, 24.0));
+        let name = Rect::from_min_max(row.min, pos2(reset.left() - 4.0, row.bottom()));
+        Self {
+            all,
+            name,
+            symbol: reset.left() - 4.0,
+            reset,
+            field,
+            track,
+            secondary: Some(pos2(row.left(), below)),
+        }
+    }
+}
+
+/// The message under a control whose text was refused.
+fn complain(ui: &mut Ui, message: &str) {
+    let tokens = theme::tokens(ui);
+    let text = egui::RichText::new(message).font(fonts::regular(theme::size::SMALL)).color(tokens.danger);
+    ui.add(egui::Label::new(text).wrap());
+}

@@ -1,0 +1,104 @@
+//! Curves, points, bands and texts in the app's colours.
+
+use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, PlotUi, Points, Polygon, Text};
+
+use super::super::legend::{Pen, Series};
+use crate::app::{fonts, theme};
+
+/// A curve in the style of its kind. Points that are not finite leave gaps. The name shows at the pointer.
+pub fn series<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [PlotPoint]) {
+    let colour = kind.colour(theme::tokens_in(plot.ctx()));
+    let (width, style) = match kind.pen() {
+        Pen::Line(width) => (width, LineStyle::Solid),
+        Pen::Dashes(width, length) => (width, LineStyle::Dashed { length }),
+        Pen::Dots(radius, spacing) => (radius, LineStyle::Dotted { spacing }),
+        Pen::Points(_) => return points(plot, kind, name, curve),
+    };
+    for run in finite_runs(curve) {
+        let line = Line::new(name, PlotPoints::Borrowed(run)).color(colour).width(width).style(style);
+        plot.line(line.allow_hover(kind != Series::Ghost));
+    }
+}
+
+/// Points where the data are: large when few, small when many.
+pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [PlotPoint]) {
+    let colour = kind.colour(theme::tokens_in(plot.ctx()));
+    let (radius, opacity) = match (kind, places.len()) {
+        (Series::Ghost, 0..=40) => (3.0, 0.6),
+        (Series::Ghost, _) => (1.2, 0.5),
+        (_, 0..=40) => (5.0, 1.0),
+        (_, 41..=400) => (2.6, 0.9),
+        _ => (1.5, 0.75),
+    };
+    for run in finite_runs(places) {
+        let dots = Points::new(name, PlotPoints::Borrowed(run)).color(colour.gamma_multiply(opacity));
+        plot.points(dots.radius(radius).allow_hover(kind != Series::Ghost));
+    }
+}
+
+/// A filled band between the smallest and largest value in each stretch of a long record, all one length.
+pub fn envelope(plot: &mut PlotUi<'_>, kind: Series, name: &str, xs: &[f64], low: &[f64], high: &[f64]) {
+    let tokens = theme::tokens_in(plot.ctx());
+    let colour = kind.colour(tokens);
+    let usable = |i: &usize| xs[*i].is_finite() && low[*i].is_finite() && high[*i].is_finite();
+    let count = xs.len().min(low.len()).min(high.len());
+    let kept: Vec<usize> = (0..count).filter(usable).collect();
+    let pick = |values: &[f64]| kept.iter().map(|i| values[*i]).collect::<Vec<f64>>();
+    let (xs, low, high) = (pick(xs), pick(low), pick(high));
+    if xs.is_empty() {
+        return;
+    }
+    let fill = colour.gamma_multiply(if kind == Series::Ghost { 0.22 } else { 0.5 });
+    plot.add(egui_plot::FilledArea::new(name, &xs, &low, &high).fill_color(fill).allow_hover(false));
+    for edge in [&low, &high] {
+        let curve: PlotPoints<'_> = xs.iter().zip(edge).map(|(x, y)| [*x, *y]).collect();
+        let width = if kind == Series::Ghost { 0.8 } else { 1.2 };
+        plot.line(Line::new(name, curve).color(colour).width(width).allow_hover(false));
+    }
+}
+
+/// Tints the region above a curve up to `top`, such as the unstable side of a boundary.
+pub fn area_above(plot: &mut PlotUi<'_>, kind: Series, curve: &[PlotPoint], top: f64) {
+    let tokens = theme::tokens_in(plot.ctx());
+    let tint = tokens.tint(kind.colour(tokens));
+    for run in finite_runs(curve).into_iter().filter(|run| run.len() > 1) {
+        let xs: Vec<f64> = run.iter().map(|point| point.x).collect();
+        let lows: Vec<f64> = run.iter().map(|point| point.y.min(top)).collect();
+        let tops = vec![top; run.len()];
+        plot.add(egui_plot::FilledArea::new("", &xs, &lows, &tops).fill_color(tint).allow_hover(false));
+    }
+}
+
+/// A filled rectangle, such as one cell of a chart, from one corner to the opposite one.
+pub fn cell(plot: &mut PlotUi<'_>, from: [f64; 2], to: [f64; 2], fill: egui::Color32) {
+    let corners = vec![from, [to[0], from[1]], to, [from[0], to[1]]];
+    let shape = Polygon::new("", PlotPoints::from(corners)).fill_color(fill).stroke(egui::Stroke::NONE);
+    plot.polygon(shape.allow_hover(false));
+}
+
+/// A small text in the plot, in the colour of what it names.
+pub fn labelled_place(plot: &mut PlotUi<'_>, text: &str, place: [f64; 2], kind: Series) {
+    let tokens = theme::tokens_in(plot.ctx());
+    let colour = if kind == Series::Ghost { tokens.text_weak } else { kind.colour(tokens) };
+    let rich = egui::RichText::new(text).font(fonts::regular(theme::size::SMALL + 0.5)).color(colour);
+    plot.text(Text::new("", place.into(), rich).color(colour).allow_hover(false));
+}
+
+/// The stretches of a curve without points that are not finite.
+pub fn finite_runs(curve: &[PlotPoint]) -> Vec<&[PlotPoint]> {
+    let finite = |point: &PlotPoint| point.x.is_finite() && point.y.is_finite();
+    curve.split(|point| !finite(point)).filter(|run| !run.is_empty()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_split_at_gaps() {
+        let at = |x: f64, y: f64| PlotPoint::new(x, y);
+        let curve = [at(f64::NAN, 0.0), at(0.0, 1.0), at(1.0, 2.0), at(2.0, f64::INFINITY), at(3.0, 1.0)];
+        let lengths: Vec<usize> = finite_runs(&curve).iter().map(|run| run.len()).collect();
+        assert_eq!(lengths, [2, 1]);
+    }
+}

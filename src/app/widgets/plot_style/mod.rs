@@ -1,0 +1,113 @@
+//! One look for all plots: axes with units, round ticks that are never clipped, a readout, and the app's curves.
+//!
+//! egui_plot has no logarithmic axes: give [`Axis::logarithmic`] and pass `log10` of the data, see [`to_log`].
+
+mod axis;
+mod items;
+mod marker;
+
+use egui_plot::{AxisHints, HoverPosition, Plot, PlotPoint};
+
+use super::number;
+use crate::app::{fonts, theme};
+
+pub use axis::{Axis, from_log, to_log};
+pub use items::{area_above, cell, envelope, finite_runs, labelled_place, points, series};
+pub use marker::{PointDrag, no_data, operating_point};
+
+/// A plot with the app's look: transparent on its card, round ticks, axis names with units, values under the
+/// pointer. Callers add bounds, links and sensitivity before they show it.
+///
+/// ```
+/// # use harvester_lab::app::widgets::{Series, plot_style::{self, Axis}};
+/// # fn draw(ui: &mut egui::Ui, trajectory: &[egui_plot::PlotPoint]) {
+/// let (x, y) = (Axis::new("voltage", "v").unit("V"), Axis::new("", "dv/dt"));
+/// plot_style::plot(ui, "phase", &x, &y)
+///     .show(ui, |plot| plot_style::series(plot, Series::Numeric, "trajectory", trajectory));
+/// # }
+/// ```
+pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> Plot<'a> {
+    let tokens = theme::tokens(ui);
+    let label = |axis: &Axis| {
+        let font = fonts::regular(theme::size::SMALL + 0.5);
+        egui::RichText::new(axis.title()).font(font).color(tokens.text_weak)
+    };
+    let hints = |hints: AxisHints<'a>, axis: &Axis, gap: f32| {
+        let formatter = axis.clone();
+        hints
+            .label(label(axis))
+            .tick_label_font(fonts::regular(theme::size::SMALL))
+            .tick_label_color(tokens.text_weak)
+            .label_spacing(egui::Rangef::new(gap, gap + 1.0))
+            .formatter(move |mark, range| formatter.tick(mark, range))
+    };
+    let (x_spacer, y_spacer) = (x.clone(), y.clone());
+    let (x_readout, y_readout) = (x.clone(), y.clone());
+    Plot::new(id)
+        .custom_x_axes(vec![hints(AxisHints::new_x(), x, 26.0)])
+        .custom_y_axes(vec![hints(AxisHints::new_y(), y, 13.0).min_thickness(24.0)])
+        .x_grid_spacer(move |input| x_spacer.marks(&input, 60.0))
+        .y_grid_spacer(move |input| y_spacer.marks(&input, 38.0))
+        .grid_spacing(egui::Rangef::new(1.0, 30.0))
+        .grid_color(tokens.grid)
+        .cursor_color(tokens.ruler)
+        .show_background(false)
+        .show_crosshair(false)
+        .allow_axis_zoom_drag(false)
+        .allow_boxed_zoom(false)
+        .set_margin_fraction(egui::vec2(0.06, 0.08))
+        .label_formatter(move |position| match position {
+            HoverPosition::NearDataPoint { plot_name, position, .. } => {
+                let values = readout(&x_readout, &y_readout, position);
+                Some(if plot_name.is_empty() { values } else { format!("{plot_name}\n{values}") })
+            }
+            HoverPosition::Elsewhere { .. } => None,
+        })
+}
+
+/// `v = 12.3 V, dv/dt = −45` for a place in plot coordinates.
+pub fn readout(x: &Axis, y: &Axis, position: &PlotPoint) -> String {
+    let part = |axis: &Axis, coordinate: f64| {
+        let value = number::significant(axis.value(coordinate), 4);
+        let unit = if axis.has_unit() { format!(" {}", axis.unit_text()) } else { String::new() };
+        format!("{} = {value}{unit}", axis.symbol())
+    };
+    format!("{}, {}", part(x, position.x), part(y, position.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::widgets::harness::Harness;
+    use crate::app::widgets::legend::Series;
+
+    #[test]
+    fn readouts_carry_symbols_and_units() {
+        let (x, y) = (Axis::new("voltage", "v").unit("V"), Axis::new("damping", "α").logarithmic());
+        assert_eq!(readout(&x, &y, &PlotPoint::new(12.3, -3.0)), "v = 12.30 V, α = 0.001000");
+    }
+
+    #[test]
+    fn a_plot_with_everything_in_it_draws() {
+        let mut harness = Harness::new(500.0, 400.0);
+        let curve: Vec<PlotPoint> =
+            (0..300).map(|i| PlotPoint::new(i as f64, (i as f64 * 0.1).sin())).collect();
+        let gappy = [PlotPoint::new(0.0, 0.0), PlotPoint::new(1.0, f64::NAN), PlotPoint::new(2.0, 1.0)];
+        let (times, low, high) = ([0.0, 100.0, 300.0], [-1.0, -0.5, -0.2], [1.0, 0.5, 0.2]);
+        let (x, y) = (Axis::new("time", "t"), Axis::new("voltage", "v").unit("V"));
+        harness.settle(|ui| {
+            plot(ui, "everything", &x, &y).height(300.0).show(ui, |plot| {
+                for kind in
+                    [Series::Numeric, Series::Theory, Series::Published, Series::Coupled, Series::Ghost]
+                {
+                    series(plot, kind, "curve", &curve);
+                }
+                series(plot, Series::Exact, "gappy", &gappy);
+                points(plot, Series::Poincare, "points", &curve);
+                envelope(plot, Series::Numeric, "history", &times, &low, &high);
+                area_above(plot, Series::Exact, &curve, 2.0);
+                labelled_place(plot, "period doubling", [100.0, 1.5], Series::Exact);
+            });
+        });
+    }
+}

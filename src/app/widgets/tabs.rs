@@ -1,0 +1,120 @@
+//! Choices side by side: the tabs of the top bar, and small segmented selectors.
+
+use egui::{CornerRadius, Rect, Response, Sense, Ui, WidgetInfo, vec2};
+
+use super::icon;
+use crate::app::{fonts, theme};
+
+/// The tabs of the top bar, the selected one in a pill. Returns whether the choice changed.
+pub fn tabs<T: PartialEq + Copy>(ui: &mut Ui, selected: &mut T, choices: &[(T, &str)]) -> bool {
+    let before = *selected;
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
+        for (choice, name) in choices {
+            let active = *choice == *selected;
+            let galley = layout(ui, name, active, theme::size::TITLE);
+            let size = vec2(galley.size().x + 24.0, 32.0);
+            let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+            describe(ui, &response, egui::Role::Tab, active, name);
+            let tokens = theme::tokens(ui);
+            let fill = if active {
+                tokens.hover
+            } else if response.hovered() {
+                tokens.field
+            } else {
+                tokens.bar
+            };
+            paint(ui, rect, &response, fill, theme::radius::CONTROL, galley, active);
+            if response.clicked() {
+                *selected = *choice;
+            }
+        }
+    });
+    *selected != before
+}
+
+/// A segmented selector for a few short choices; `name` is for screen readers. Returns whether the choice changed.
+///
+/// Where the row is too narrow it breaks into several.
+pub fn chips<T: PartialEq + Copy>(ui: &mut Ui, name: &str, selected: &mut T, choices: &[(T, &str)]) -> bool {
+    let before = *selected;
+    let tokens = theme::tokens(ui);
+    let background = ui.painter().add(egui::Shape::Noop);
+    let row = ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
+        for (choice, label) in choices {
+            let active = *choice == *selected;
+            let galley = layout(ui, label, active, theme::size::SMALL + 0.5);
+            let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 18.0, 24.0), Sense::click());
+            describe(ui, &response, egui::Role::RadioButton, active, &format!("{name}: {label}"));
+            let fill = if active {
+                tokens.accent
+            } else if response.hovered() {
+                tokens.hover
+            } else {
+                tokens.field
+            };
+            paint(ui, rect.shrink(1.0), &response, fill, theme::radius::CONTROL - 1, galley, active);
+            if response.clicked() {
+                *selected = *choice;
+            }
+        }
+    });
+    let used = row.response.rect;
+    ui.painter().set(background, egui::epaint::RectShape::filled(used, theme::radius::CONTROL, tokens.field));
+    *selected != before
+}
+
+fn layout(ui: &Ui, text: &str, active: bool, size: f32) -> std::sync::Arc<egui::Galley> {
+    let font = if active { fonts::semibold(size) } else { fonts::regular(size) };
+    ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::PLACEHOLDER)
+}
+
+fn describe(ui: &Ui, response: &Response, role: egui::Role, active: bool, name: &str) {
+    let enabled = ui.is_enabled();
+    response.widget_info(|| WidgetInfo::selected(role, enabled, active, name));
+}
+
+fn paint(
+    ui: &Ui,
+    rect: Rect,
+    response: &Response,
+    fill: egui::Color32,
+    corner: u8,
+    text: std::sync::Arc<egui::Galley>,
+    active: bool,
+) {
+    let tokens = theme::tokens(ui);
+    ui.painter().rect_filled(rect, CornerRadius::same(corner), fill);
+    icon::focus_ring(ui, rect, response);
+    let colour = match (active, fill == tokens.accent) {
+        (true, true) => tokens.on_accent,
+        (true, false) => tokens.text_strong,
+        _ if response.hovered() => tokens.text_strong,
+        _ => tokens.text_weak,
+    };
+    ui.painter().galley_with_override_text_color(rect.center() - 0.5 * text.size(), text, colour);
+    response.clone().on_hover_cursor(egui::CursorIcon::PointingHand);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::widgets::harness::Harness;
+
+    #[test]
+    fn clicking_selects() {
+        let mut harness = Harness::new(600.0, 200.0);
+        let (mut tab, mut law) = (0, 'q');
+        let mut draw = |ui: &mut Ui| {
+            tabs(ui, &mut tab, &[(0, "Explore"), (1, "Stability"), (2, "Sweep")]);
+            chips(ui, "Force law", &mut law, &[('q', "quadratic"), ('e', "exact")]);
+        };
+        harness.settle(&mut draw);
+        let stability = harness.find(egui::Role::Tab, "Stability").bounds.center();
+        let exact = harness.find(egui::Role::RadioButton, "Force law: exact").bounds.center();
+        harness.click(stability, &mut draw);
+        harness.click(exact, &mut draw);
+        assert_eq!((tab, law), (1, 'e'));
+    }
+}

@@ -1,0 +1,63 @@
+//! How a run can end.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// How a run ended. Escape and contact are results of the mechanics, not failures.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+pub enum Outcome {
+    /// The run reached its end time.
+    Completed,
+    /// The tip left over the potential barrier of the truncated force law at this (dimensionless) time.
+    Escaped {
+        /// Time of escape (dimensionless).
+        time: f64,
+    },
+    /// The magnets touched at this (dimensionless) time.
+    Contact {
+        /// Time of contact (dimensionless).
+        time: f64,
+    },
+}
+
+impl Outcome {
+    /// The time at which the run ended early, if it did.
+    pub fn early_end(&self) -> Option<f64> {
+        match *self {
+            Self::Completed => None,
+            Self::Escaped { time } | Self::Contact { time } => Some(time),
+        }
+    }
+}
+
+/// Why a run could not be carried out.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum IntegrationError {
+    /// The initial state has the wrong length or holds something that is not a number.
+    #[error("initial must be {expected} finite numbers (q1..qN, dq1/dt..dqN/dt, v), got {got}")]
+    InitialState {
+        /// Required length 2N + 1.
+        expected: usize,
+        /// What was wrong.
+        got: String,
+    },
+    /// The step fell below any useful size without an escape or a contact.
+    #[error(
+        "the step became too small at time {time}: the motion cannot be resolved to tolerance {tolerance}"
+    )]
+    StepTooSmall {
+        /// Dimensionless time.
+        time: f64,
+        /// The tolerance asked for.
+        tolerance: f64,
+    },
+    /// The linear system is so stiff that preparing a step would cost more than a run.
+    #[error(
+        "the device has a time scale {ratio:.0} times shorter than the excitation's period; reduce damping, load conductance or coupling"
+    )]
+    TooStiff {
+        /// Largest rate times the excitation's period.
+        ratio: f64,
+    },
+}

@@ -1,0 +1,113 @@
+//! The classical fourth-order Runge-Kutta method, as the paper runs it (section 3.3): 10,000 steps a period.
+
+use std::f64::consts::TAU;
+
+use super::collocation::check_state;
+use super::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
+use crate::model::{ReducedSystem, RestForce};
+
+/// Steps of one excitation period in the paper's runs.
+pub const PAPER_STEPS_PER_PERIOD: u32 = 10_000;
+
+/// The classical method on a grid of equal fractions of the excitation period.
+///
+/// It has no error control: it is as accurate as its step, and unstable when alpha omega_N^2 times the step
+/// exceeds about 2.8.
+#[derive(Debug, Clone)]
+pub struct RungeKutta4<'a, F> {
+    system: &'a ReducedSystem,
+    force: F,
+    steps_per_period: u32,
+    count: u64,
+    state: Vec<f64>,
+    stages: [Vec<f64>; 4],
+    probe: Vec<f64>,
+}
+
+impl<'a, F: RestForce> RungeKutta4<'a, F> {
+    /// Starts at time 0 in `initial` (length 2N + 1) with `steps_per_period` > 0 steps a period.
+    ///
+    /// # Errors
+    /// [`IntegrationError::InitialState`].
+    pub fn new(
+        system: &'a ReducedSystem,
+        force: F,
+        initial: &[f64],
+        steps_per_period: u32,
+    ) -> Result<Self, IntegrationError> {
+        check_state(initial, system.dimension())?;
+        let zero = vec![0.0; system.dimension()];
+        Ok(Self {
+            system,
+            force,
+            steps_per_period: steps_per_period.max(1),
+            count: 0,
+            state: initial.to_vec(),
+            stages: std::array::from_fn(|_| zero.clone()),
+            probe: zero,
+        })
+    }
+
+    /// Step length 2 pi / (steps_per_period omega) (dimensionless time).
+    pub fn step_length(&self) -> f64 {
+        self.system.parameters.period() / f64::from(self.steps_per_period)
+    }
+
+    /// Present time (dimensionless).
+    pub fn time(&self) -> f64 {
+        self.count as f64 * self.step_length()
+    }
+
+    /// Present state, length 2N + 1.
+    pub fn state(&self) -> &[f64] {
+        &self.state
+    }
+
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.count
+    }
+
+    /// One step; the outcome when the tip has escaped or the magnets touched.
+    pub fn step(&mut self) -> Option<Outcome> {
+        let h = self.step_length();
+        let steps = u64::from(self.steps_per_period);
+        let halves = 2 * (self.count % steps);
+        // The phase is taken within the period, where its sine keeps all digits.
+        let sine = |halves: u64| (TAU * halves as f64 / (2 * steps) as f64).sin();
+        let (start, middle, end) = (sine(halves), sine(halves + 1), sine(halves + 2));
+        let Self { system, force, state, stages: [k1, k2, k3, k4], probe, .. } = self;
+        let evaluate = |state: &[f64], sine: f64, out: &mut [f64]| {
+            system.derivative(state, force.rest(system.tip_displacement(state)), sine, out);
+        };
+        let shift = |state: &[f64], factor: f64, stage: &[f64], out: &mut [f64]| {
+            for ((out, y), k) in out.iter_mut().zip(state).zip(stage) {
+                *out = y + factor * k;
+            }
+        };
+        evaluate(state, start, k1);
+        shift(state, 0.5 * h, k1, probe);
+        evaluate(probe, middle, k2);
+        shift(state, 0.5 * h, k2, probe);
+        evaluate(probe, middle, k3);
+        shift(state, h, k3, probe);
+        evaluate(probe, end, k4);
+        for (i, y) in state.iter_mut().enumerate() {
+            *y += h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+        }
+        self.count += 1;
+        self.ended()
+    }
+
+    fn ended(&self) -> Option<Outcome> {
+        let s = self.system.tip_displacement(&self.state);
+        let time = self.time();
+        if self.force.contact().is_some_and(|contact| s <= contact) {
+            Some(Outcome::Contact { time })
+        } else if !(s.abs() < ESCAPE_DISPLACEMENT) {
+            Some(Outcome::Escaped { time })
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! Questions and answers: one request type for the native command, JavaScript and the page, and the sliced run
+//! behind the page's plots.
+
+pub mod request;
+pub mod run;
+
+mod answer;
+mod boundary;
+mod simulate;
+
+pub use request::{Request, RequestError};
+pub use run::{Run, RunJob};
+
+/// Answers one JSON request with one JSON object; the format is described in the README.
+///
+/// # Errors
+/// One line that names the field, the value and the allowed range.
+pub fn solve(json: &str) -> Result<String, String> {
+    let answer =
+        Request::parse(json).and_then(|request| request.answer()).map_err(|error| error.to_string())?;
+    serde_json::to_string(&answer).map_err(|error| error.to_string())
+}

@@ -1,0 +1,226 @@
+//! The run behind the linked plots: computed in slices, so that a frame never waits for it.
+
+use crate::dynamics::poincare::{PhasePoint, Recurrence, recurrence};
+use crate::dynamics::summary::{Collector, Envelope, Summary};
+use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
+use crate::model::reduced::ForceVisitor;
+use crate::model::{ModelError, ReducedSystem, RestForce};
+use crate::scenario::Scenario;
+
+/// Slices of the voltage's envelope; more than a plot has pixels.
+const ENVELOPE_SLICES: usize = 1200;
+/// Part of a run that its summary covers: the last tenth.
+const WINDOW: f64 = 0.1;
+
+/// Everything the plots show of one run.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// The system that was integrated.
+    pub system: ReducedSystem,
+    /// Its motion, with dense output.
+    pub trajectory: Trajectory,
+    /// (v, dv/dt) at t = 2 pi k / omega, k = 0, 1, ..
+    pub strobe: Vec<PhasePoint>,
+    /// Amplitudes and means over the last tenth, or over the whole run when it ended early.
+    pub summary: Option<Summary>,
+    /// Envelope of the voltage.
+    pub envelope: Envelope,
+    /// Whether the stroboscopic points recur; `None` when there are too few.
+    pub recurrence: Option<Recurrence>,
+}
+
+impl Run {
+    /// How the run ended.
+    pub fn outcome(&self) -> Outcome {
+        self.trajectory.outcome
+    }
+
+    /// Computes the whole run of `scenario` at once.
+    ///
+    /// # Errors
+    /// One sentence that says what is out of range or cannot be resolved.
+    pub fn compute(scenario: &Scenario) -> Result<Self, RunError> {
+        let mut job = RunJob::new(scenario)?;
+        loop {
+            if let Some(run) = job.advance(usize::MAX)? {
+                return Ok(run);
+            }
+        }
+    }
+}
+
+/// Why a run has no result.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// The scenario describes no device.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The motion cannot be integrated.
+    #[error(transparent)]
+    Integration(#[from] IntegrationError),
+}
+
+/// A run being computed.
+pub struct RunJob {
+    stage: Box<dyn Stage>,
+    system: ReducedSystem,
+    t_end: f64,
+    recorder: Option<Recorder>,
+}
+
+impl std::fmt::Debug for RunJob {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("RunJob").field("t_end", &self.t_end).field("progress", &self.progress()).finish()
+    }
+}
+
+impl RunJob {
+    /// Prepares the run of `scenario`.
+    ///
+    /// # Errors
+    /// [`RunError`] when the scenario is not valid.
+    pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
+        let (system, initial) = scenario.validate()?;
+        let t_end = scenario.t_end;
+        let stage = system.dispatch(Start { system: &system, initial: &initial })?;
+        let period = system.parameters.period();
+        // Whole periods, so that means are those of the motion.
+        let window = t_end - (WINDOW * t_end / period).ceil().min((t_end / period).floor()) * period;
+        let recorder = Recorder {
+            trajectory: stage.recorder(),
+            strobe: Vec::with_capacity((t_end / period) as usize + 2),
+            collector: Collector::new(window.max(0.0), t_end, ENVELOPE_SLICES),
+        };
+        Ok(Self { stage, system, t_end, recorder: Some(recorder) })
+    }
+
+    /// Done part of the run, 0 to 1.
+    pub fn progress(&self) -> f64 {
+        (self.stage.time() / self.t_end).clamp(0.0, 1.0)
+    }
+
+    /// Goes on for at most `steps` steps; the finished run once there is one.
+    ///
+    /// # Errors
+    /// [`IntegrationError`] when the motion cannot be resolved.
+    pub fn advance(&mut self, steps: usize) -> Result<Option<Run>, RunError> {
+        let Some(mut recorder) = self.recorder.take() else { return Ok(None) };
+        match self.stage.advance(self.t_end, steps, &self.system, &mut recorder)? {
+            None => {
+                self.recorder = Some(recorder);
+                Ok(None)
+            }
+            Some(_) => Ok(Some(recorder.finish(self.system.clone()))),
+        }
+    }
+}
+
+/// What is recorded while a run goes on.
+struct Recorder {
+    trajectory: Trajectory,
+    strobe: Vec<PhasePoint>,
+    collector: Collector,
+}
+
+impl Recorder {
+    fn finish(self, system: ReducedSystem) -> Run {
+        let Self { trajectory, strobe, collector } = self;
+        let summary = collector.summary().or_else(|| whole_run(&trajectory, &system));
+        let recurrence = match (trajectory.outcome, &summary) {
+            (Outcome::Completed, Some(summary)) => recurrence(&strobe, summary.v_peak, summary.dv_dt_peak),
+            _ => None,
+        };
+        let envelope = collector.envelope().clone();
+        Run { system, trajectory, strobe, summary, envelope, recurrence }
+    }
+}
+
+/// The summary of a run that ended before its window began.
+fn whole_run(trajectory: &Trajectory, system: &ReducedSystem) -> Option<Summary> {
+    let to = trajectory.end_time();
+    if !(to > 0.0) {
+        return None;
+    }
+    let n = system.modes.len();
+    let mut summary = Summary {
+        from: 0.0,
+        to,
+        v_rms: 0.0,
+        v_peak: 0.0,
+        dv_dt_peak: 0.0,
+        tip_min: f64::INFINITY,
+        tip_max: f64::NEG_INFINITY,
+        v_peak_whole: 0.0,
+    };
+    const SAMPLES: usize = 2000;
+    trajectory.sample(0.0, to, SAMPLES, |_, state| {
+        let (v, tip) = (state[2 * n], system.tip_displacement(state));
+        summary.v_rms += v * v / SAMPLES as f64;
+        summary.v_peak = summary.v_peak.max(v.abs());
+        summary.dv_dt_peak = summary.dv_dt_peak.max(system.voltage_rate(state).abs());
+        summary.tip_min = summary.tip_min.min(tip);
+        summary.tip_max = summary.tip_max.max(tip);
+    });
+    summary.v_rms = summary.v_rms.sqrt();
+    summary.v_peak_whole = summary.v_peak;
+    Some(summary)
+}
+
+/// An integrator whose force law is hidden, so that a job has one type.
+trait Stage {
+    fn time(&self) -> f64;
+    fn recorder(&self) -> Trajectory;
+    fn advance(
+        &mut self,
+        t_end: f64,
+        steps: usize,
+        system: &ReducedSystem,
+        recorder: &mut Recorder,
+    ) -> Result<Option<Outcome>, IntegrationError>;
+}
+
+impl<F: RestForce> Stage for Collocation<F> {
+    fn time(&self) -> f64 {
+        Self::time(self)
+    }
+
+    fn recorder(&self) -> Trajectory {
+        Trajectory::recorder(self)
+    }
+
+    fn advance(
+        &mut self,
+        t_end: f64,
+        steps: usize,
+        system: &ReducedSystem,
+        recorder: &mut Recorder,
+    ) -> Result<Option<Outcome>, IntegrationError> {
+        let Recorder { trajectory, strobe, collector } = recorder;
+        let dimension = system.dimension();
+        let outcome = Self::advance(self, t_end, steps, |step| {
+            if step.index == 0 {
+                let state = &step.start[..dimension];
+                strobe.push(PhasePoint { v: state[dimension - 1], dv_dt: system.voltage_rate(state) });
+            }
+            trajectory.record(step);
+            collector.record(step);
+        })?;
+        if let Some(outcome) = outcome {
+            trajectory.finish(self, outcome);
+        }
+        Ok(outcome)
+    }
+}
+
+struct Start<'a> {
+    system: &'a ReducedSystem,
+    initial: &'a [f64],
+}
+
+impl ForceVisitor for Start<'_> {
+    type Output = Result<Box<dyn Stage>, IntegrationError>;
+
+    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
+        Ok(Box::new(Collocation::new(self.system, force, self.initial, Settings::default())?))
+    }
+}

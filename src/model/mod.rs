@@ -1,0 +1,28 @@
+//! Section 2 of the paper, in its order: device, parameters, magnet, modes, the reduced system.
+
+pub mod device;
+pub mod energy;
+pub mod error;
+pub mod force;
+pub mod magnet;
+pub mod materials;
+pub mod modes;
+pub mod parameters;
+pub mod quadrature;
+pub mod reduced;
+
+pub use device::{Device, ElectricalScaling};
+pub use error::ModelError;
+pub use force::{ForceLaw, RestForce};
+pub use magnet::{Equilibrium, Magnet};
+pub use modes::{Mode, ModeSet};
+pub use parameters::{Parameter, ParameterSet, Parameters};
+pub use reduced::ReducedSystem;
+
+/// Largest number of modes a truncation may keep (dimensionless count).
+pub const MAX_MODES: usize = 8;
+
+/// Length of the state vector (q_1..q_N, dq_1/dt..dq_N/dt, v) of an N-mode truncation.
+pub const fn state_dimension(modes: usize) -> usize {
+    2 * modes + 1
+}

@@ -1,0 +1,210 @@
+//! The N-mode truncation (Eqs. 27-34): coefficients, right-hand side and its Jacobian side by side.
+
+use super::force::{Exact, Polynomial, Quadratic};
+use super::{Equilibrium, ForceLaw, Magnet, ModeSet, ModelError, Parameters, RestForce, state_dimension};
+
+/// The N-mode system, ready to be integrated.
+///
+/// The state is (q_1..q_N, dq_1/dt..dq_N/dt, v), of length 2N + 1, all dimensionless but v, which is in volts.
+#[derive(Debug, Clone)]
+pub struct ReducedSystem {
+    /// The ten numbers the system was made from.
+    pub parameters: Parameters,
+    /// Where the tip rests.
+    pub equilibrium: Equilibrium,
+    /// The modes kept.
+    pub modes: ModeSet,
+    /// The force law chosen.
+    pub law: ForceLaw,
+    /// Linear magnet stiffness c_1 (dimensionless).
+    pub c1: f64,
+    /// Modal couplings theta_n of Eq. (27), one a mode (dimensionless, per volt).
+    pub theta: Vec<f64>,
+}
+
+impl ReducedSystem {
+    /// Eqs. (27), (32), (33): the system of `modes` modes under a force law.
+    ///
+    /// # Errors
+    /// [`ModelError`] when there is no stable equilibrium, or the number of modes or degree is not available.
+    #[doc(alias = "eq-27")]
+    #[doc(alias = "eq-33")]
+    pub fn new(parameters: Parameters, modes: usize, law: ForceLaw) -> Result<Self, ModelError> {
+        let law = law.validate()?;
+        let equilibrium = Equilibrium::new(&parameters)?;
+        let magnet = Magnet { c0: parameters.c0, h: parameters.h };
+        let c1 = magnet.taylor_coefficient(equilibrium.gap, 1);
+        let modes = ModeSet::new(c1, parameters.eta, modes)?;
+        let theta = modes.iter().map(|mode| parameters.theta * mode.tip_slope).collect();
+        Ok(Self { parameters, equilibrium, modes, law, c1, theta })
+    }
+
+    /// The same device under another excitation: everything that depends on the structure is kept.
+    ///
+    /// # Errors
+    /// [`ModelError`] when `beta` or `omega` is out of range.
+    pub fn with_excitation(&self, beta: f64, omega: f64) -> Result<Self, ModelError> {
+        let parameters = Parameters::new(super::ParameterSet { beta, omega, ..*self.parameters })?;
+        Ok(Self { parameters, ..self.clone() })
+    }
+
+    /// Length 2N + 1 of the state.
+    pub fn dimension(&self) -> usize {
+        state_dimension(self.modes.len())
+    }
+
+    /// The pair of magnets.
+    pub fn magnet(&self) -> Magnet {
+        Magnet { c0: self.parameters.c0, h: self.parameters.h }
+    }
+
+    /// c_1..c_count of Eq. (17) at this equilibrium.
+    pub fn taylor_coefficients(&self, count: u32) -> Vec<f64> {
+        (1..=count).map(|j| self.magnet().taylor_coefficient(self.equilibrium.gap, j)).collect()
+    }
+
+    /// The law's R(s), for use where speed does not matter; hot loops are generic and enter through
+    /// [`Self::dispatch`].
+    pub fn rest_force(&self) -> Box<dyn RestForce> {
+        struct Boxed;
+        impl ForceVisitor for Boxed {
+            type Output = Box<dyn RestForce>;
+            fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
+                Box::new(force)
+            }
+        }
+        self.dispatch(Boxed)
+    }
+
+    /// Calls `visitor` with the concrete force law, so that code generic over the law is compiled once for each.
+    pub fn dispatch<V: ForceVisitor>(&self, visitor: V) -> V::Output {
+        let (magnet, rest) = (self.magnet(), &self.equilibrium);
+        match self.law {
+            ForceLaw::Quadratic => visitor.visit(Quadratic { c2: magnet.taylor_coefficient(rest.gap, 2) }),
+            ForceLaw::Taylor(degree) => visitor.visit(Polynomial::new(&magnet, rest, degree)),
+            ForceLaw::Exact => visitor.visit(Exact::new(&magnet, rest)),
+        }
+    }
+
+    /// Tip displacement from equilibrium s = sum of q_n, in beam lengths. `state` has length 2N + 1.
+    pub fn tip_displacement(&self, state: &[f64]) -> f64 {
+        state[..self.modes.len()].iter().sum()
+    }
+
+    /// Tip velocity w = sum of dq_n/dt.
+    pub fn tip_velocity(&self, state: &[f64]) -> f64 {
+        let n = self.modes.len();
+        state[n..2 * n].iter().sum()
+    }
+
+    /// Eq. (31), section 2.4: dv/dt = (sum of theta_n dq_n/dt - kappa v) / c.
+    #[doc(alias = "eq-31")]
+    pub fn voltage_rate(&self, state: &[f64]) -> f64 {
+        let n = self.modes.len();
+        let current: f64 = self.theta.iter().zip(&state[n..]).map(|(theta, rate)| theta * rate).sum();
+        (current - self.parameters.kappa * state[2 * n]) / self.parameters.c
+    }
+
+    /// Eqs. (32), (34), (60): the time derivative of `state` under excitation phase `omega t` with sine
+    /// `sin_phase` and a rest force `rest` = R(s). Both slices have length 2N + 1.
+    #[doc(alias = "eq-32")]
+    #[doc(alias = "eq-34")]
+    #[doc(alias = "eq-60")]
+    pub fn derivative(&self, state: &[f64], rest: f64, sin_phase: f64, derivative: &mut [f64]) {
+        let n = self.modes.len();
+        let p = &self.parameters;
+        let common = p.alpha * self.c1 * self.tip_velocity(state) - rest;
+        let drive = p.omega * p.omega * p.beta * sin_phase;
+        let voltage = state[2 * n];
+        for (k, mode) in self.modes.iter().enumerate() {
+            let (position, velocity) = (state[k], state[n + k]);
+            derivative[k] = velocity;
+            derivative[n + k] = (common + drive * mode.eta1 - self.theta[k] * voltage) / mode.eta2
+                - mode.omega * mode.omega * (position + p.alpha * velocity);
+        }
+        derivative[2 * n] = self.voltage_rate(state);
+    }
+
+    /// The Jacobian of [`Self::derivative`] with respect to the state, (2N + 1) x (2N + 1), where the force law
+    /// has the slope `slope` = dR/ds. With slope 0 it is the matrix A of the linear system.
+    pub fn jacobian(&self, slope: f64) -> nalgebra::DMatrix<f64> {
+        let n = self.modes.len();
+        let p = &self.parameters;
+        let mut jacobian = nalgebra::DMatrix::zeros(2 * n + 1, 2 * n + 1);
+        for (k, mode) in self.modes.iter().enumerate() {
+            jacobian[(k, n + k)] = 1.0;
+            for j in 0..n {
+                jacobian[(n + k, j)] = -slope / mode.eta2;
+                jacobian[(n + k, n + j)] = p.alpha * self.c1 / mode.eta2;
+            }
+            jacobian[(n + k, k)] -= mode.omega * mode.omega;
+            jacobian[(n + k, n + k)] -= p.alpha * mode.omega * mode.omega;
+            jacobian[(n + k, 2 * n)] = -self.theta[k] / mode.eta2;
+            jacobian[(2 * n, n + k)] = self.theta[k] / p.c;
+        }
+        jacobian[(2 * n, 2 * n)] = -p.kappa / p.c;
+        jacobian
+    }
+}
+
+/// Code that is generic over the force law; see [`ReducedSystem::dispatch`].
+pub trait ForceVisitor {
+    /// What the visit returns.
+    type Output;
+    /// Receives the concrete law.
+    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::ParameterSet;
+
+    fn system(modes: usize, law: ForceLaw) -> ReducedSystem {
+        let parameters = Parameters::new(ParameterSet::default()).expect("the paper's parameters are valid");
+        ReducedSystem::new(parameters, modes, law).expect("the paper's device is valid")
+    }
+
+    #[test]
+    fn the_jacobian_is_the_derivative_by_finite_differences() {
+        for (modes, law) in [(1, ForceLaw::Quadratic), (2, ForceLaw::Exact), (4, ForceLaw::Taylor(4))] {
+            let system = system(modes, law);
+            let force = system.rest_force();
+            let state: Vec<f64> = (0..system.dimension()).map(|i| 0.01 * (1.0 + i as f64).sin()).collect();
+            let evaluate = |state: &[f64]| {
+                let mut derivative = vec![0.0; state.len()];
+                let rest = force.rest(system.tip_displacement(state));
+                system.derivative(state, rest, 0.3, &mut derivative);
+                derivative
+            };
+            let jacobian = system.jacobian(force.slope(system.tip_displacement(&state)));
+            for j in 0..state.len() {
+                let step = 1e-6;
+                let (mut low, mut high) = (state.clone(), state.clone());
+                low[j] -= step;
+                high[j] += step;
+                let (low, high) = (evaluate(&low), evaluate(&high));
+                for i in 0..state.len() {
+                    let difference = (high[i] - low[i]) / (2.0 * step);
+                    let error = (jacobian[(i, j)] - difference).abs();
+                    assert!(error < 1e-6 * (1.0 + difference.abs()), "{modes} {law:?} ({i}, {j}): {error}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_right_hand_side_has_the_hand_computed_value() {
+        // One mode, state (q, dq/dt, v) = (0.1, 0.2, 3), a quarter of the excitation period, by Eqs. (31), (32).
+        let system = system(1, ForceLaw::Quadratic);
+        let mode = &system.modes[0];
+        let (c1, c2) = (1.3450051225722, -19.378543266711);
+        let force = 0.001 * c1 * 0.2 - c2 * 0.01 - 2.66720397414344e-4 * 3.0 + 625.0 * 0.001 * mode.eta1;
+        let acceleration = force / mode.eta2 - mode.omega.powi(2) * (0.1 + 0.001 * 0.2);
+        let mut derivative = [0.0; 3];
+        system.derivative(&[0.1, 0.2, 3.0], system.rest_force().rest(0.1), 1.0, &mut derivative);
+        assert_eq!(derivative[0], 0.2);
+        assert!((derivative[1] - acceleration).abs() < 1e-10);
+        assert!((derivative[2] - (2.66720397414344e-4 * 0.2 - 3e-6) / 1e-6).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,137 @@
+//! Everything a view depends on, versioned: what is stored, shared and undone.
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::{
+    ForceLaw, MAX_MODES, ModelError, ParameterSet, Parameters, ReducedSystem, state_dimension,
+};
+
+/// Version written by this program; older ones are read.
+pub const VERSION: u32 = 1;
+
+/// Smallest and largest end time of a run (dimensionless).
+pub const END_TIME: (f64, f64) = (1.0, 5000.0);
+
+/// Which truncation is used.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ModelChoice {
+    /// Number of modes N, 1 to 8.
+    pub modes: usize,
+    /// Law of the magnets' rest force.
+    pub force: ForceLaw,
+}
+
+impl Default for ModelChoice {
+    /// The paper's: two modes, quadratic force.
+    fn default() -> Self {
+        Self { modes: 2, force: ForceLaw::Quadratic }
+    }
+}
+
+impl ModelChoice {
+    /// The reduced system of `set` under this choice: raw input becomes valid here.
+    ///
+    /// # Errors
+    /// [`ModelError`], naming what is out of range.
+    pub fn system(&self, set: ParameterSet) -> Result<ReducedSystem, ModelError> {
+        ReducedSystem::new(Parameters::new(set)?, self.modes, self.force)
+    }
+}
+
+/// What a page shows: numbers, model, start and duration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Scenario {
+    /// Version of this format.
+    pub version: u32,
+    /// The ten dimensionless numbers.
+    pub parameters: ParameterSet,
+    /// Modes and force law.
+    pub model: ModelChoice,
+    /// State at time 0 (length 2N + 1), rest when absent.
+    pub initial: Option<Vec<f64>>,
+    /// Duration of the run (dimensionless).
+    pub t_end: f64,
+}
+
+impl Default for Scenario {
+    fn default() -> Self {
+        Self {
+            version: VERSION,
+            parameters: ParameterSet::default(),
+            model: ModelChoice::default(),
+            initial: None,
+            t_end: 600.0,
+        }
+    }
+}
+
+impl Scenario {
+    /// Checks everything, and gives the system and the state to start from.
+    ///
+    /// # Errors
+    /// [`ModelError`], naming what is out of range.
+    pub fn validate(&self) -> Result<(ReducedSystem, Vec<f64>), ModelError> {
+        if self.version > VERSION {
+            let (minimum, value) = (1, self.version as usize);
+            return Err(ModelError::Count { field: "version", value, minimum, maximum: VERSION as usize });
+        }
+        ModelError::check("t_end", self.t_end, END_TIME, "")?;
+        let system = self.model.system(self.parameters)?;
+        let dimension = system.dimension();
+        let initial = self.initial.clone().unwrap_or_else(|| vec![0.0; dimension]);
+        if initial.len() != dimension {
+            let (minimum, maximum) = (dimension, dimension);
+            return Err(ModelError::Count {
+                field: "numbers in initial",
+                value: initial.len(),
+                minimum,
+                maximum,
+            });
+        }
+        for value in &initial {
+            ModelError::check("initial", *value, (-1e6, 1e6), "")?;
+        }
+        Ok((system, initial))
+    }
+
+    /// Changes the number of modes, keeping the parts of the initial state that both truncations have.
+    pub fn set_modes(&mut self, modes: usize) {
+        let modes = modes.clamp(1, MAX_MODES);
+        if let Some(initial) = &mut self.initial {
+            let before = self.model.modes;
+            let mut state = vec![0.0; state_dimension(modes)];
+            let common = modes.min(before);
+            state[..common].copy_from_slice(&initial[..common]);
+            state[modes..modes + common].copy_from_slice(&initial[before..before + common]);
+            state[2 * modes] = initial[2 * before];
+            *initial = state;
+        }
+        self.model.modes = modes;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changing_the_number_of_modes_keeps_what_both_have() {
+        let initial = Some(vec![1.0, 2.0, 3.0, 4.0, 5.0]);
+        let mut scenario = Scenario { initial, ..Default::default() };
+        scenario.set_modes(3);
+        assert_eq!(scenario.initial, Some(vec![1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 5.0]));
+        scenario.set_modes(1);
+        assert_eq!(scenario.initial, Some(vec![1.0, 3.0, 5.0]));
+        assert!(scenario.validate().is_ok());
+    }
+
+    #[test]
+    fn a_scenario_round_trips_through_json() -> Result<(), serde_json::Error> {
+        let model = ModelChoice { modes: 4, force: ForceLaw::Taylor(5) };
+        let scenario = Scenario { model, initial: Some(vec![0.1; 9]), ..Default::default() };
+        assert_eq!(serde_json::from_str::<Scenario>(&serde_json::to_string(&scenario)?)?, scenario);
+        Ok(())
+    }
+}

@@ -1,0 +1,219 @@
+//! The page as a user has it: look, point, drag, read.
+
+use std::{
+    env, fs,
+    path::{Path, PathBuf},
+    thread::sleep,
+    time::{Duration, Instant},
+};
+
+use fantoccini::actions::{InputSource as _, MOUSE_BUTTON_LEFT, MouseActions, PointerAction};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::{driver::Browser, server::Files};
+
+/// How long anything may take on a slow machine.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// The colours that the system asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Theme {
+    Dark,
+    Light,
+}
+
+/// One widget of the page.
+#[derive(Clone, Debug, Deserialize)]
+pub(crate) struct Control {
+    pub(crate) role: String,
+    pub(crate) label: String,
+    pub(crate) number: Option<f64>,
+    pub(crate) bounds: [f64; 4],
+}
+
+impl Control {
+    /// A point inside, given as fractions of width and height.
+    pub(crate) fn at(&self, across: f64, down: f64) -> (f64, f64) {
+        let [left, top, right, bottom] = self.bounds;
+        (left + (right - left) * across, top + (bottom - top) * down)
+    }
+}
+
+/// The page in a browser of its own, served by a server of its own.
+pub(crate) struct Page {
+    pub(crate) files: Files,
+    browser: Browser,
+    console: Vec<(String, String)>,
+}
+
+/// The project's folder.
+pub(crate) fn project() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The folder with the built page: `dist`, or what HARVESTER_DIST names.
+pub(crate) fn dist() -> PathBuf {
+    env::var_os("HARVESTER_DIST").map_or_else(|| project().join("dist"), PathBuf::from)
+}
+
+impl Page {
+    /// Opens the page and waits until it is drawn.
+    pub(crate) fn open(width: u32, height: u32, theme: Theme) -> Self {
+        let mut page = Self { files: Files::serve(&dist()), browser: Browser::start(), console: Vec::new() };
+        page.resize(width, height, theme);
+        page.goto();
+        page
+    }
+
+    /// Loads the page (again) by its address.
+    pub(crate) fn goto(&mut self) {
+        let url = self.files.url();
+        self.browser.run(self.browser.client().goto(&url));
+        self.wait_ready();
+    }
+
+    pub(crate) fn reload(&mut self) {
+        self.browser.run(self.browser.client().refresh());
+        self.wait_ready();
+    }
+
+    fn wait_ready(&mut self) {
+        self.wait("the page to start", |page| {
+            let phase =
+                page.script("return document.documentElement.dataset.phase + '|' + document.body.innerText");
+            let phase = phase.as_str().unwrap_or_default();
+            assert!(!phase.starts_with("failed"), "the page failed: {phase}\n{:?}", page.browser.console());
+            (phase.starts_with("ready") && page.script("return 'harvester' in window") == true).then_some(())
+        });
+    }
+
+    pub(crate) fn resize(&self, width: u32, height: u32, theme: Theme) {
+        let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.browser.devtools("Emulation.setDeviceMetricsOverride", &metrics);
+        let value = if theme == Theme::Dark { "dark" } else { "light" };
+        let media = json!({ "features": [{ "name": "prefers-color-scheme", "value": value }] });
+        self.browser.devtools("Emulation.setEmulatedMedia", &media);
+    }
+
+    /// Runs JavaScript; a promise is waited for.
+    pub(crate) fn script(&self, script: &str) -> Value {
+        self.browser.run(self.browser.client().execute(script, vec![]))
+    }
+
+    /// Calls a function of `window.harvester`: what it answers, or the message of its refusal.
+    pub(crate) fn call(&self, function: &str, argument: &str) -> Result<Value, String> {
+        let script = format!(
+            "try {{ return [true, await window.harvester.{function}(arguments[0])]; }} \
+             catch (error) {{ return [false, String(error?.message ?? error)]; }}"
+        );
+        let script = format!("return (async function() {{ {script} }})(...arguments)");
+        let answer = self.browser.run(self.browser.client().execute(&script, vec![json!(argument)]));
+        if answer[0] == true {
+            Ok(answer[1].clone())
+        } else {
+            Err(answer[1].as_str().unwrap_or_default().to_owned())
+        }
+    }
+
+    fn json(&self, function: &str) -> Value {
+        let text = self.call(function, "").unwrap_or_else(|message| panic!("{function}(): {message}"));
+        serde_json::from_str(text.as_str().unwrap_or_default()).expect("harvester answers in JSON")
+    }
+
+    pub(crate) fn state(&self) -> Value {
+        self.json("state")
+    }
+
+    pub(crate) fn frames(&self) -> Value {
+        self.json("frames")
+    }
+
+    pub(crate) fn controls(&self) -> Vec<Control> {
+        serde_json::from_value(self.json("controls")).expect("a list of widgets")
+    }
+
+    /// Polls until `look` finds something.
+    pub(crate) fn wait<T>(&mut self, what: &str, mut look: impl FnMut(&Self) -> Option<T>) -> T {
+        let began = Instant::now();
+        loop {
+            if let Some(found) = look(self) {
+                return found;
+            }
+            if began.elapsed() > PATIENCE {
+                let picture = self.screenshot("gave-up");
+                self.drain();
+                panic!("waited in vain for {what}; see {}; console: {:?}", picture.display(), self.console);
+            }
+            sleep(Duration::from_millis(30));
+        }
+    }
+
+    pub(crate) fn wait_until(&mut self, what: &str, mut holds: impl FnMut(&Value) -> bool) -> Value {
+        self.wait(what, |page| Some(page.state()).filter(&mut holds))
+    }
+
+    /// The widget with this label (whole, or else its beginning) and one of these roles, once it is on the screen.
+    pub(crate) fn find(&mut self, label: &str, roles: &[&str]) -> Control {
+        self.wait(&format!("a {roles:?} labelled {label:?}"), |page| {
+            let fits = |control: &&Control| roles.is_empty() || roles.contains(&control.role.as_str());
+            let controls = page.controls();
+            let mut named = controls.iter().filter(fits);
+            let found = named.clone().find(|control| control.label == label);
+            found.or_else(|| named.find(|control| control.label.starts_with(label))).cloned()
+        })
+    }
+
+    pub(crate) fn slider(&mut self, label: &str) -> Control {
+        self.find(label, &["Slider"])
+    }
+
+    pub(crate) fn click(&self, at: (f64, f64)) {
+        self.drag(&[at], Duration::ZERO);
+    }
+
+    /// Presses at the first point, moves through the others and lets go at the last.
+    pub(crate) fn drag(&self, path: &[(f64, f64)], step: Duration) {
+        let mut mouse = MouseActions::new("mouse".to_owned());
+        for (index, &(x, y)) in path.iter().enumerate() {
+            mouse = mouse.then(PointerAction::MoveTo { duration: Some(step), x, y });
+            if index == 0 {
+                mouse = mouse.then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
+            }
+        }
+        let mouse = mouse.then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
+        self.browser.run(self.browser.client().perform_actions(mouse));
+    }
+
+    pub(crate) fn png(&self) -> Vec<u8> {
+        self.browser.run(self.browser.client().screenshot())
+    }
+
+    /// Writes `target/screenshots/<name>.png`.
+    pub(crate) fn screenshot(&self, name: &str) -> PathBuf {
+        let folder = project().join("target/screenshots");
+        let file = folder.join(name).with_extension("png");
+        fs::create_dir_all(&folder)
+            .and_then(|()| fs::write(&file, self.png()))
+            .expect("a screenshot on disk");
+        file
+    }
+
+    fn drain(&mut self) {
+        self.console.extend(self.browser.console());
+    }
+
+    /// Ends the visit: nothing on the console may be an error.
+    pub(crate) fn close(mut self) {
+        self.drain();
+        let errors: Vec<_> = self.console.iter().filter(|(level, _)| level == "SEVERE").collect();
+        assert!(errors.is_empty(), "errors on the console: {errors:#?}");
+        // Software WebGL and canvas text have much to say that is about neither.
+        let noise = ["software WebGL", "GL Driver Message", "willReadFrequently"];
+        for (level, message) in &self.console {
+            if !noise.iter().any(|words| message.contains(words)) {
+                println!("console {level}: {message}");
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! The two end states the paper's own runs lead to, by its method and by ours.
+
+use harvester_lab::dynamics::{Settings, Trajectory, rk4::RungeKutta4};
+use harvester_lab::model::reduced::ForceVisitor;
+use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem, RestForce};
+
+const FIGURE_3: [f64; 5] = [-1.521630082e-3, 2.841270618e-3, 7.724208224e-3, -1.957999388e-2, 2.449883949];
+const FIGURE_4: [f64; 5] = [1.2365676944e-2, 2.2433281133e-2, 8.7696801325e-2, 5.8895944582e-1, 27.811225437];
+
+fn system(set: ParameterSet) -> ReducedSystem {
+    let parameters = Parameters::new(set).expect("valid parameters");
+    ReducedSystem::new(parameters, 2, ForceLaw::Quadratic).expect("a valid device")
+}
+
+fn figure_3() -> ReducedSystem {
+    system(ParameterSet::default())
+}
+
+fn figure_4() -> ReducedSystem {
+    let rest = system(ParameterSet { alpha: 1e-4, beta: 1e-2, ..Default::default() });
+    let sum = rest.modes[0].omega + rest.modes[1].omega;
+    rest.with_excitation(1e-2, sum).expect("the sum frequency is in range")
+}
+
+struct PaperRun<'a>(&'a ReducedSystem, u64);
+
+impl ForceVisitor for PaperRun<'_> {
+    type Output = Vec<f64>;
+    fn visit<F: RestForce + 'static>(self, force: F) -> Vec<f64> {
+        let mut run = RungeKutta4::new(self.0, force, &[0.0; 5], 10_000).expect("from rest");
+        for _ in 0..self.1 {
+            assert_eq!(run.step(), None);
+        }
+        run.state().to_vec()
+    }
+}
+
+fn assert_close(state: &[f64], reference: &[f64], tolerance: f64) {
+    for (value, reference) in state.iter().zip(reference) {
+        let error = (value - reference).abs();
+        assert!(error <= tolerance, "{value} instead of {reference}: {error:e}");
+    }
+}
+
+#[test]
+fn the_collocation_reproduces_figure_4() {
+    let system = figure_4();
+    let t_end = 24_461_860.0 * system.parameters.period() / 10_000.0;
+    assert!((t_end - 604.999982934).abs() < 2e-9, "{t_end:.12}");
+    let run = Trajectory::compute(&system, &[0.0; 5], t_end, Settings::default()).expect("the run completes");
+    eprintln!("{} steps", run.len());
+    assert_close(run.final_state(), &FIGURE_4, 1e-8);
+}
+
+#[test]
+fn the_collocation_reproduces_figure_3() {
+    let system = figure_3();
+    let t_end = 23_952_818.0 * system.parameters.period() / 10_000.0;
+    assert!((t_end - 601.999976493).abs() < 1e-9);
+    let run = Trajectory::compute(&system, &[0.0; 5], t_end, Settings::default()).expect("the run completes");
+    assert_close(run.final_state(), &FIGURE_3, 1e-9);
+}
+
+#[test]
+fn the_papers_method_reproduces_figure_3() {
+    assert_close(&figure_3().dispatch(PaperRun(&figure_3(), 23_952_818)), &FIGURE_3, 1e-8);
+}
+
+#[test]
+fn the_papers_method_reproduces_figure_4() {
+    assert_close(&figure_4().dispatch(PaperRun(&figure_4(), 24_461_860)), &FIGURE_4, 1e-8);
+}
