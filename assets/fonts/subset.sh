@@ -15,7 +15,7 @@ freeze() {
     python3 - "$1" "$2" <<'PYTHON'
 import sys
 from fontTools.ttLib import TTFont
-font = TTFont(sys.argv[1])
+font = TTFont(sys.argv[1], recalcTimestamp=False)
 tabular = {}
 gsub = font["GSUB"].table
 for record in gsub.FeatureList.FeatureRecord:

@@ -1,63 +1,220 @@
-//! The egui front end. A stand-in until the panels exist: one slider, one curve.
+//! The egui front end: draws what the core computed, on any egui integration.
+//!
+//! A frame goes: [`App::ui`] lets the session compute for a few milliseconds, the panels draw from shared
+//! references and push commands, and the commands are carried out at the end, in one place.
 
 #[cfg(target_arch = "wasm32")]
 pub mod bridge;
 pub mod fonts;
 pub mod theme;
+pub mod view;
 pub mod widgets;
 
-use serde::{Deserialize, Serialize};
+mod clock;
+mod command;
+mod curves;
+mod figures;
+mod map;
+mod panels;
+mod reading;
+mod report;
+mod session;
 
-/// What the stand-in remembers.
-#[derive(Clone, Copy, Serialize, Deserialize)]
-struct State {
-    frequency: f64,
-}
+use egui::{Margin, Ui};
 
-/// The application: drawn by any egui integration.
+use command::{Command, Commands};
+use panels::Context;
+use session::{Session, Status};
+use view::{MapWindow, Tab, View};
+
+/// Width of the left column, and page width below which the columns are stacked.
+const COLUMN: f32 = 292.0;
+const STACKED: f32 = 760.0;
+
+/// The application.
 pub struct App {
-    state: State,
+    view: View,
+    session: Session,
+    notice: Option<String>,
+    /// What egui was last told about theme and type size.
+    styled: Option<(bool, bool)>,
 }
 
 impl App {
-    /// A new application, continuing what an earlier session stored when that is readable.
-    pub fn new(_ctx: &egui::Context, stored: Option<&str>) -> Self {
-        let state = stored.and_then(|text| serde_json::from_str(text).ok());
-        Self { state: state.unwrap_or(State { frequency: 3.0 }) }
+    /// A new application, continuing what an earlier session `stored` when that is valid.
+    pub fn new(context: &egui::Context, stored: Option<&str>) -> Self {
+        fonts::install(context);
+        let (view, notice) = View::restore(stored);
+        let mut session = Session::default();
+        session.ask(&view.scenario);
+        let mut app = Self { view, session, notice, styled: None };
+        app.style(context);
+        app
     }
 
     /// Work that goes on while the page is hidden.
-    pub fn logic(&mut self, _ctx: &egui::Context) {}
+    pub fn logic(&mut self, context: &egui::Context) {
+        self.session.work();
+        if matches!(self.session.status(), Status::Computing(_)) {
+            context.request_repaint();
+        }
+    }
 
     /// Draws one frame.
-    pub fn ui(&mut self, ui: &mut egui::Ui) {
-        egui::CentralPanel::default().show(ui, |ui| {
-            ui.heading("Harvester Lab");
-            ui.spacing_mut().slider_width = 400.0;
-            ui.add(egui::Slider::new(&mut self.state.frequency, 1.0..=10.0).text("Frequency"));
-            let omega = self.state.frequency;
-            let wave =
-                egui_plot::PlotPoints::from_explicit_callback(move |x| (omega * x).sin(), 0.0..10.0, 800);
-            egui_plot::Plot::new("wave").show(ui, |plot| plot.line(egui_plot::Line::new("wave", wave)));
-        });
+    pub fn ui(&mut self, ui: &mut Ui) {
+        self.style(ui.ctx());
+        let mut commands = Commands::new();
+        let mut context = Context { view: &self.view, session: &self.session, commands: &mut commands };
+        draw(&mut context, self.notice.as_deref(), ui);
+        let asked = !commands.is_empty();
+        for command in commands {
+            self.carry_out(command);
+        }
+        if asked {
+            ui.ctx().request_repaint();
+        }
     }
 
-    /// The scenario and its results.
+    fn carry_out(&mut self, command: Command) {
+        match command {
+            Command::Show(scenario) => self.show(*scenario),
+            Command::OpenTab(tab) => self.view.tab = tab,
+            Command::LookAt(window) => self.look_at(window),
+            Command::LoadFigure(number) => self.load_figure(number),
+            Command::Enlarge(panel) => self.view.enlarged = panel,
+            Command::Pin(keep) => self.session.pin(keep),
+            Command::SetDark(dark) => self.view.dark = Some(dark),
+            Command::SetProjector(large) => self.view.projector = large,
+            Command::MoveBeam(moves) => self.view.beam_moves = moves,
+            Command::DismissNotice => self.notice = None,
+        }
+    }
+
+    fn show(&mut self, scenario: crate::scenario::Scenario) {
+        self.session.ask(&scenario);
+        if let Some(boundaries) = &self.session.boundaries {
+            self.view.map = boundaries.follow(self.view.map, scenario.parameters.omega);
+        }
+        self.view.scenario = scenario;
+    }
+
+    /// Opens a window of the map; a point outside of it comes along.
+    fn look_at(&mut self, window: MapWindow) {
+        self.view.map = window;
+        let Some(boundaries) = &self.session.boundaries else { return };
+        let (low, high) = boundaries.range(window);
+        let omega = self.view.scenario.parameters.omega;
+        if let Some(tongue) = window.resonance().and_then(|resonance| boundaries.tongue(resonance))
+            && !(low..=high).contains(&omega)
+        {
+            let mut scenario = self.view.scenario.clone();
+            scenario.parameters.omega = tongue.published_frequency;
+            self.show(scenario);
+        }
+    }
+
+    fn load_figure(&mut self, number: u8) {
+        let Some(figure) = figures::figure(number) else { return };
+        self.view.figure = number;
+        if let Some(scenario) = figure.scenario() {
+            self.view.map = figure.resonance().map_or(self.view.map, MapWindow::about);
+            self.show(scenario);
+        }
+    }
+
+    /// Tells egui about theme and type size when they have changed.
+    fn style(&mut self, context: &egui::Context) {
+        let system = context.system_theme().unwrap_or(egui::Theme::Dark) == egui::Theme::Dark;
+        let wanted = (self.view.dark.unwrap_or(system), self.view.projector);
+        if self.styled == Some(wanted) {
+            return;
+        }
+        theme::apply(context, wanted.0);
+        context.set_zoom_factor(if wanted.1 { theme::PROJECTOR_ZOOM } else { 1.0 });
+        self.styled = Some(wanted);
+    }
+
+    /// Scenario, view and newest results as JSON; the format is described in the README.
     pub fn state_json(&self) -> String {
-        self.stored()
+        report::state(&self.view, &self.session)
     }
 
-    /// Replaces the scenario.
+    /// Replaces scenario and view by what `json` holds: a view as stored, or a scenario alone.
     ///
     /// # Errors
-    /// When the text is not a scenario; nothing changes then.
+    /// One line that says what is wrong; nothing changes then.
     pub fn load_json(&mut self, json: &str) -> Result<(), String> {
-        self.state = serde_json::from_str(json).map_err(|error| error.to_string())?;
+        let view = report::parse(json, &self.view)?;
+        view.scenario.validate().map_err(|error| error.to_string())?;
+        self.view = View { scenario: self.view.scenario.clone(), ..view.clone() };
+        self.show(view.scenario);
         Ok(())
     }
 
     /// What a later session needs to continue here.
     pub fn stored(&self) -> String {
-        serde_json::to_string(&self.state).unwrap_or_default()
+        serde_json::to_string(&self.view).unwrap_or_default()
     }
+}
+
+/// The whole page: bar, notice, column and tab.
+fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let bar = egui::Frame::new().fill(tokens.bar).inner_margin(Margin::symmetric(14, 7));
+    egui::Panel::top("bar")
+        .frame(bar)
+        .show_separator_line(false)
+        .show(ui, |ui| panels::top_bar::show(context, ui));
+    let page = egui::Frame::new().fill(tokens.page);
+    if let Some(message) = notice {
+        let frame = page.inner_margin(Margin { left: 14, right: 14, top: 8, bottom: 0 });
+        egui::Panel::top("notice").frame(frame).show_separator_line(false).show(ui, |ui| {
+            draw_notice(context, ui, message);
+        });
+    }
+    if ui.available_width() < STACKED {
+        egui::CentralPanel::default().frame(page.inner_margin(10)).show(ui, |ui| {
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                panels::controls::main_controls(context, ui);
+                ui.add_space(8.0);
+                draw_tab(context, ui);
+                ui.add_space(8.0);
+                panels::controls::rest(context, ui);
+            });
+        });
+        return;
+    }
+    let column = egui::Frame::new().fill(tokens.bar).inner_margin(Margin::symmetric(14, 10));
+    egui::Panel::left("controls")
+        .frame(column)
+        .show_separator_line(false)
+        .resizable(false)
+        .exact_size(COLUMN)
+        .show(ui, |ui| {
+            egui::ScrollArea::vertical()
+                .auto_shrink(false)
+                .show(ui, |ui| panels::controls::show(context, ui));
+        });
+    egui::CentralPanel::default().frame(page.inner_margin(10)).show(ui, |ui| {
+        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| draw_tab(context, ui));
+    });
+}
+
+fn draw_tab(context: &mut Context<'_>, ui: &mut Ui) {
+    match context.view.tab {
+        Tab::Explore => panels::explore::show(context, ui),
+        Tab::Paper => panels::paper::show(context, ui),
+    }
+}
+
+fn draw_notice(context: &mut Context<'_>, ui: &mut Ui, message: &str) {
+    let tokens = theme::tokens(ui);
+    egui::Frame::new().fill(tokens.card).corner_radius(theme::radius::CARD).inner_margin(10).show(ui, |ui| {
+        ui.horizontal(|ui| {
+            if widgets::icon_button(ui, widgets::Icon::Close, "Dismiss").clicked() {
+                context.commands.push(Command::DismissNotice);
+            }
+            ui.add(egui::Label::new(egui::RichText::new(message).color(tokens.warning)).wrap());
+        });
+    });
 }

@@ -118,6 +118,13 @@ impl Device {
         if self.repelling { strength } else { -strength }
     }
 
+    /// The load resistance [ohm] that has the dimensionless conductance `kappa` in the printed scaling of Eq. (8);
+    /// `None` for an open circuit.
+    pub fn resistance_of(&self, kappa: f64) -> Option<f64> {
+        let resistance = self.beam_length.powi(2) * self.time_unit() / (self.bending_stiffness() * kappa);
+        (kappa > 0.0).then_some(resistance)
+    }
+
     /// Sag of the tip under gravity, (m_b/8 + m_t/3) g L^3/(E I) [m].
     pub fn sag(&self) -> f64 {
         (self.beam_mass / 8.0 + self.tip_mass / 3.0) * self.gravity * self.beam_length.powi(3)

@@ -54,7 +54,10 @@ impl Browser {
         });
         let Value::Object(capabilities) = capabilities else { unreachable!("written as an object") };
         let client = browser.runtime.block_on(async {
-            ClientBuilder::new(HttpConnector::new())
+            // Small requests and answers: waiting to fill packets would cost 40 ms each.
+            let mut connector = HttpConnector::new();
+            connector.set_nodelay(true);
+            ClientBuilder::new(connector)
                 .capabilities(capabilities)
                 .connect(&format!("http://127.0.0.1:{port}"))
                 .await

@@ -13,6 +13,8 @@ use crate::app::theme;
 pub(super) struct Memory {
     text: Option<String>,
     pub(super) error: Option<String>,
+    /// The parameter's value of the last frame.
+    pub(super) value: f64,
 }
 
 impl Memory {
@@ -102,7 +104,7 @@ pub(super) fn show(
         let all = CCursorRange::select_all_str(&full);
         output.state.cursor.set_char_range(Some(all));
         output.state.clone().store(ui.ctx(), id);
-        *memory = Memory { text: Some(full), error: None };
+        *memory = Memory { text: Some(full), error: None, value };
         return None;
     }
     if response.lost_focus() {
@@ -158,9 +160,9 @@ mod tests {
     fn messages_name_field_value_and_range() {
         let subject = Subject { name: "Damping", symbol: "α", unit: "" };
         assert_eq!(check(&subject, "1e-3", &(1e-4..=0.1)), Ok(1e-3));
-        let message = check(&subject, "5", &(1e-4..=0.1)).unwrap_err();
-        assert_eq!(message, "Damping α = 5 is out of range. Allowed: 1e−4 to 0.1.");
-        let message = check(&subject, "much", &(1e-4..=0.1)).unwrap_err();
-        assert_eq!(message, "Damping α: “much” is not a number. Allowed: 1e−4 to 0.1.");
+        let message = check(&subject, "5", &(1e-4..=0.1));
+        assert_eq!(message, Err("Damping α = 5 is out of range. Allowed: 1e−4 to 0.1.".to_owned()));
+        let message = check(&subject, "much", &(1e-4..=0.1));
+        assert_eq!(message, Err("Damping α: “much” is not a number. Allowed: 1e−4 to 0.1.".to_owned()));
     }
 }

@@ -75,8 +75,6 @@ fn arrange(
 }
 
 /// Draws the marks under `track` within the width of `outer`; returns the one that was clicked.
-///
-/// `top` is where the drawing starts; the height used is known beforehand from [`height`].
 pub(super) fn show(
     ui: &Ui,
     id: egui::Id,

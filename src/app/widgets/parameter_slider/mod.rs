@@ -160,6 +160,10 @@ impl<'a> ParameterSlider<'a> {
         let subject = field::Subject { name: self.name, symbol: self.symbol, unit: self.unit };
         let memory_id = id.with("field memory");
         let mut memory = field::Memory::load(ui, memory_id);
+        if memory.value != before {
+            // A file, a link or an undo brought another value: the complaint is out of date.
+            memory.error = None;
+        }
         let typed = field::show(ui, id.with("field"), rows.field, &subject, before, &self.range, &mut memory);
 
         let direct = reset.or(marked).or(typed);
@@ -174,6 +178,7 @@ impl<'a> ParameterSlider<'a> {
             ui.painter().text(bottom, Align2::LEFT_TOP, self.secondary, font, theme::tokens(ui).text_weak);
         }
         let error = memory.error.clone();
+        memory.value = new;
         memory.store(ui, memory_id);
         if let Some(message) = &error {
             complain(ui, message);
@@ -249,7 +254,10 @@ struct Rows {
 impl Rows {
     /// Takes the room the control needs and divides it.
     fn arrange(ui: &mut Ui, slider: &ParameterSlider<'_>, mapping: &Mapping, width: f32) -> Self {
-        let field = if slider.compact { COMPACT_FIELD } else { FIELD };
+        let font = fonts::regular(theme::size::BODY);
+        let unit = ui.painter().layout_no_wrap(slider.unit.to_owned(), font, egui::Color32::PLACEHOLDER);
+        let field = if slider.compact { COMPACT_FIELD } else { FIELD }
+            + if slider.unit.is_empty() { 0.0 } else { unit.size().x + 8.0 };
         let width = width.max(170.0);
         if slider.compact {
             let (all, _) = ui.allocate_exact_size(vec2(width, NAME_ROW), Sense::hover());

@@ -46,7 +46,7 @@ pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> P
     Plot::new(id)
         .custom_x_axes(vec![hints(AxisHints::new_x(), x, 26.0)])
         .custom_y_axes(vec![hints(AxisHints::new_y(), y, 13.0).min_thickness(24.0)])
-        .x_grid_spacer(move |input| x_spacer.marks(&input, 60.0))
+        .x_grid_spacer(move |input| x_spacer.marks(&input, 54.0))
         .y_grid_spacer(move |input| y_spacer.marks(&input, 38.0))
         .grid_spacing(egui::Rangef::new(1.0, 30.0))
         .grid_color(tokens.grid)

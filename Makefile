@@ -1,0 +1,58 @@
+# Harvester Lab. `make help` lists the targets.
+SHELL := /usr/bin/env bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+.PHONY: help serve build dev serve-dev test check page-test bench fmt clean
+
+PORT ?= 8080
+DEV_DIST := target/page-dev-dist
+# The project's own tools first: wasm-opt of the distribution is often too old.
+export PATH := $(CURDIR)/.tools/bin:$(CURDIR)/node_modules/.bin:$(PATH)
+# Trunk understands NO_COLOR=true only, not the usual 1.
+unexport NO_COLOR
+
+help: ## this list
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{ printf "  make %-10s %s\n", $$1, $$2 }'
+
+serve: build ## build the page and serve it on http://127.0.0.1:8080/ (PORT=...)
+	@echo "Harvester Lab: http://127.0.0.1:$(PORT)/ (Ctrl-C stops)"
+	@python3 -m http.server --bind 127.0.0.1 --directory dist $(PORT)
+
+build: ## build the page into dist/, ready for any static host (first time 5-15 minutes, with its tools)
+	@scripts/tools.sh page
+	trunk build --release
+
+dev: ## build the page quickly into target/page-dev-dist/ (not optimised by wasm-opt)
+	@scripts/tools.sh dev
+	trunk build --cargo-profile page-dev --dist $(DEV_DIST)
+
+serve-dev: dev ## the same, served
+	@echo "Harvester Lab: http://127.0.0.1:$(PORT)/ (Ctrl-C stops)"
+	@python3 -m http.server --bind 127.0.0.1 --directory $(DEV_DIST) $(PORT)
+
+test: ## everything that is checked: format, lints, documentation, tests, page, browser tests, page weight
+	@scripts/tools.sh test
+	@scripts/timed.sh "format, lints, documentation, native tests" $(MAKE) --no-print-directory check
+	@scripts/timed.sh "page" $(MAKE) --no-print-directory build
+	@scripts/timed.sh "browser tests" $(MAKE) --no-print-directory page-test
+
+check: ## the part of `make test` that needs no browser
+	cargo fmt --check
+	cargo clippy --locked --quiet --all-targets -- -D warnings
+	cargo clippy --locked --quiet --all-targets --features app -- -D warnings
+	cargo clippy --locked --quiet --lib --bins --features app --target wasm32-unknown-unknown -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --features app
+	cargo test --locked --quiet --features app
+
+page-test: ## the browser tests on what is in dist/
+	@scripts/tools.sh browser
+	cargo test --locked --quiet --features app --test browser -- --ignored --test-threads=1 --nocapture
+
+bench: ## measurements (minutes)
+	cargo bench --locked
+
+fmt: ## format the sources
+	cargo fmt
+
+clean: ## remove what was built; the tools stay
+	rm -rf target dist

@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# Checks the tools for a target and installs what is missing: tools.sh dev|page|test
+# Cargo's tools go to .tools, npm's to node_modules; only rustup's target and Debian's Chromium are shared.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source scripts/versions.env
+export PATH="$PWD/.tools/bin:$PWD/node_modules/.bin:$PATH"
+
+say() { printf '== %s\n' "$*"; }
+die() { printf 'error: %s\n' "$*" >&2; exit 1; }
+have() { command -v "$1" >/dev/null 2>&1; }
+
+# The tools run for seconds: compiling them quickly matters more than how fast they are.
+cargo_tool() {
+  CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
+    cargo install --root .tools --target-dir target/tools --no-default-features "$@"
+}
+
+rust() {
+  have cargo || die "Rust is missing: install it from https://rustup.rs and run this again"
+  local library
+  library="$(rustc --print sysroot)/lib/rustlib"
+  [ -d "$library/wasm32-unknown-unknown" ] && return
+  have rustup || die "this Rust is not managed by rustup and lacks the target wasm32-unknown-unknown: install \
+that target with the manager it came from (Debian: libstd-rust-dev-wasm32), or install Rust from https://rustup.rs"
+  say "adding Rust's target wasm32-unknown-unknown (seconds to a minute)"
+  rustup target add wasm32-unknown-unknown
+}
+
+trunk_() {
+  [ "$(trunk --version 2>/dev/null)" = "trunk $TRUNK_VERSION" ] && return
+  say "compiling Trunk $TRUNK_VERSION into .tools (about 5 minutes on two cores, once)"
+  cargo_tool --locked trunk --version "$TRUNK_VERSION"
+}
+
+bindgen() {
+  local version
+  version="$(awk '/^name = "wasm-bindgen"$/ { getline; gsub(/"/, ""); print $3 }' Cargo.lock)"
+  [ -n "$version" ] || die "Cargo.lock names no wasm-bindgen"
+  [ "$(wasm-bindgen --version 2>/dev/null)" = "wasm-bindgen $version" ] && return
+  say "compiling wasm-bindgen $version into .tools (about 2 minutes on two cores, once)"
+  # Not --locked: the lock file it was published with names a crate version that is gone.
+  cargo_tool wasm-bindgen-cli --version "$version"
+}
+
+wasm_opt() {
+  local wanted
+  wanted="$(sed -n 's/.*"binaryen": "\([0-9]*\).*/\1/p' package.json)"
+  # Debian's much older one exits with success and leaves a module that browsers refuse.
+  [[ "$(wasm-opt --version 2>/dev/null)" == *"version $wanted"* ]] && return
+  have npm || die "wasm-opt $wanted is missing, and npm to fetch it: install node with npm, \
+or put binaryen $wanted on the PATH (https://github.com/WebAssembly/binaryen/releases)"
+  say "fetching binaryen $wanted into node_modules (a minute, once)"
+  npm ci --no-audit --no-fund --loglevel=error
+}
+
+chromium_() {
+  have "${CHROMEDRIVER:-chromedriver}" && { have "${CHROMIUM:-chromium}" || have chromium-browser || have google-chrome; } && return
+  local advice="the browser tests need Chromium and chromedriver: apt-get install chromium chromium-driver, \
+or set CHROMIUM and CHROMEDRIVER to where they are"
+  have apt-get || die "$advice"
+  local root=()
+  [ "$(id -u)" = 0 ] || root=(sudo -n)
+  say "installing Debian's chromium and chromium-driver (a minute or two)"
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq </dev/null || die "$advice"
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends chromium chromium-driver \
+    </dev/null >/dev/null || die "$advice"
+}
+
+rust
+case "${1:-page}" in
+  dev) trunk_; bindgen ;;
+  page) trunk_; bindgen; wasm_opt ;;
+  test) trunk_; bindgen; wasm_opt; chromium_ ;;
+  browser) chromium_ ;;
+  *) die "tools.sh dev|page|test|browser" ;;
+esac

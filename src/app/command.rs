@@ -1,0 +1,32 @@
+//! What panels ask for. They draw from shared references and push commands; one place carries them out.
+
+use super::view::{MapWindow, Panel, Tab};
+use crate::scenario::Scenario;
+
+/// A wish of the user.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Command {
+    /// Compute and show this from now on.
+    Show(Box<Scenario>),
+    /// Bring a tab to the front.
+    OpenTab(Tab),
+    /// Look at another part of the stability map.
+    LookAt(MapWindow),
+    /// Load a figure of the paper.
+    LoadFigure(u8),
+    /// Fill the page with a panel, or show all of them again.
+    Enlarge(Option<Panel>),
+    /// Keep the present curves as ghosts, or drop them.
+    Pin(bool),
+    /// Dark or light theme.
+    SetDark(bool),
+    /// Large type or normal.
+    SetProjector(bool),
+    /// Let the beam move, or hold it.
+    MoveBeam(bool),
+    /// Take the message away.
+    DismissNotice,
+}
+
+/// The commands of a frame.
+pub type Commands = Vec<Command>;

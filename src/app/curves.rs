@@ -1,0 +1,161 @@
+//! What the plots draw of a run, sampled once when the run is finished.
+
+use egui_plot::PlotPoint;
+
+use crate::dynamics::Outcome;
+use crate::jobs::Run;
+use crate::theory::SteadyState;
+
+/// Samples of an excitation period in the phase portrait.
+const SAMPLES_PER_PERIOD: usize = 96;
+/// Periods shown of a motion that does not repeat.
+const APERIODIC_PERIODS: f64 = 24.0;
+/// Periods of the start, drawn faintly.
+const TRANSIENT_PERIODS: f64 = 30.0;
+/// Periods in the close view of the time history.
+const CLOSE_PERIODS: f64 = 6.0;
+/// Dots that stand for the theory on one period.
+const THEORY_DOTS: usize = 26;
+/// Samples of a run that ended early.
+const EARLY_SAMPLES: usize = 3000;
+/// Points along the beam.
+pub(super) const BEAM_POINTS: usize = 33;
+
+/// Curves of one run, in the units of the plots: volts, volts per dimensionless time, dimensionless time.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Curves {
+    /// (v, dv/dt) while the motion starts.
+    pub transient: Vec<PlotPoint>,
+    /// (v, dv/dt) at the end of the run.
+    pub phase: Vec<PlotPoint>,
+    /// Stroboscopic points before and in the last quarter of the run.
+    pub strobe_before: Vec<PlotPoint>,
+    pub strobe: Vec<PlotPoint>,
+    /// (t, v) at the end of the run.
+    pub close: Vec<PlotPoint>,
+    /// First-order theory, as dots over `phase` and `close`, and its stroboscopic point.
+    pub theory_phase: Vec<PlotPoint>,
+    pub theory_close: Vec<PlotPoint>,
+    pub theory_strobe: Option<PlotPoint>,
+    /// Times, lowest and highest voltage of the envelope.
+    pub envelope: [Vec<f64>; 3],
+    /// Largest |v| and |dv/dt| of the drawn motion.
+    pub extent: [f64; 2],
+    /// Mode shapes at [`BEAM_POINTS`] points from clamp to tip, one row a mode.
+    pub shapes: Vec<Vec<f64>>,
+    /// Beam at the lowest and at the highest tip position of the drawn motion.
+    pub extremes: [Vec<[f64; 2]>; 2],
+    /// Stretch of time that the moving beam repeats.
+    pub repeat: [f64; 2],
+}
+
+impl Curves {
+    /// Samples `run`.
+    pub(super) fn new(run: &Run) -> Self {
+        let system = &run.system;
+        let period = system.parameters.period();
+        let end = run.trajectory.end_time();
+        let early = run.outcome() != Outcome::Completed;
+        let repeats = run.recurrence.and_then(|found| found.period);
+        let shown = repeats.map_or(APERIODIC_PERIODS, |periods| 2.0 * periods as f64) * period;
+        let from = if early { 0.0 } else { (end - shown).max(0.0) };
+        let count =
+            if early { EARLY_SAMPLES } else { ((end - from) / period * SAMPLES_PER_PERIOD as f64) as usize };
+        let mut curves = Self { shapes: shapes(run), ..Self::default() };
+        let voltage = system.dimension() - 1;
+        let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+        run.trajectory.sample(from, end, count.max(2), |_, state| {
+            let point = PlotPoint::new(state[voltage], system.voltage_rate(state));
+            curves.extent = [curves.extent[0].max(point.x.abs()), curves.extent[1].max(point.y.abs())];
+            curves.phase.push(point);
+            let tip = system.tip_displacement(state);
+            if tip < lowest {
+                lowest = tip;
+                curves.extremes[0] = beam(&curves.shapes, state);
+            }
+            if tip > highest {
+                highest = tip;
+                curves.extremes[1] = beam(&curves.shapes, state);
+            }
+        });
+        if !early {
+            let until = (TRANSIENT_PERIODS * period).min(from);
+            run.trajectory.sample(0.0, until, (TRANSIENT_PERIODS * 40.0) as usize, |_, state| {
+                curves.transient.push(PlotPoint::new(state[voltage], system.voltage_rate(state)));
+            });
+        }
+        curves.sample_close_view(run, if early { 0.0 } else { end - CLOSE_PERIODS * period }, end);
+        curves.split_strobe(run);
+        curves.take_envelope(run);
+        curves.add_theory(run, end);
+        let loops = repeats.unwrap_or(8) as f64 * period;
+        curves.repeat = [if early { 0.0 } else { (end - loops).max(0.0) }, end];
+        curves
+    }
+
+    fn sample_close_view(&mut self, run: &Run, from: f64, end: f64) {
+        let voltage = run.system.dimension() - 1;
+        run.trajectory.sample(from.max(0.0), end, 700, |time, state| {
+            self.close.push(PlotPoint::new(time, state[voltage]));
+        });
+    }
+
+    fn split_strobe(&mut self, run: &Run) {
+        let points = &run.strobe;
+        // The start belongs to the time history; the map shows where the points go.
+        let (first, split) = (points.len() / 10, points.len() * 3 / 4);
+        let convert = |range: &[crate::dynamics::poincare::PhasePoint]| {
+            range.iter().map(|point| PlotPoint::new(point.v, point.dv_dt)).collect()
+        };
+        if run.outcome() == Outcome::Completed {
+            self.strobe_before = convert(&points[first..split]);
+            self.strobe = convert(&points[split..]);
+        } else {
+            self.strobe = convert(points);
+        }
+    }
+
+    fn take_envelope(&mut self, run: &Run) {
+        let envelope = &run.envelope;
+        for (i, (low, high)) in envelope.slices.iter().enumerate() {
+            if low.is_finite() {
+                self.envelope[0].push((i as f64 + 0.5) * envelope.width);
+                self.envelope[1].push(*low);
+                self.envelope[2].push(*high);
+            }
+        }
+    }
+
+    fn add_theory(&mut self, run: &Run, end: f64) {
+        // At a natural frequency the first-order theory has no steady state, and no dots.
+        let Ok(theory) = SteadyState::new(&run.system) else { return };
+        let period = run.system.parameters.period();
+        let voltage = theory.voltage;
+        let place = |time: f64| PlotPoint::new(voltage.value(time), voltage.rate(time));
+        let times = |from: f64, periods: f64| {
+            let count = (THEORY_DOTS as f64 * periods) as usize;
+            (0..count).map(move |i| from + period * i as f64 / THEORY_DOTS as f64)
+        };
+        self.theory_phase = times(0.0, 1.0).map(place).collect();
+        let start = ((end / period).floor() - CLOSE_PERIODS).max(0.0) * period;
+        self.theory_close =
+            times(start, CLOSE_PERIODS).map(|time| PlotPoint::new(time, voltage.value(time))).collect();
+        self.theory_strobe = Some(place(0.0));
+    }
+}
+
+/// Mode shapes along the beam, one row a mode.
+fn shapes(run: &Run) -> Vec<Vec<f64>> {
+    let along = |i: usize| i as f64 / (BEAM_POINTS - 1) as f64;
+    run.system.modes.iter().map(|mode| (0..BEAM_POINTS).map(|i| mode.shape(along(i))).collect()).collect()
+}
+
+/// The deflection of the beam in a state, as points (x, z) from clamp to tip, in beam lengths.
+pub(super) fn beam(shapes: &[Vec<f64>], state: &[f64]) -> Vec<[f64; 2]> {
+    (0..BEAM_POINTS)
+        .map(|i| {
+            let z = shapes.iter().zip(state).map(|(shape, q)| shape[i] * q).sum();
+            [i as f64 / (BEAM_POINTS - 1) as f64, z]
+        })
+        .collect()
+}

@@ -1,0 +1,130 @@
+//! The stability boundaries of a structure, over the frequencies of the map's windows.
+
+use egui_plot::PlotPoint;
+
+use super::view::MapWindow;
+use crate::model::ReducedSystem;
+use crate::scenario::{ModelChoice, Scenario};
+use crate::theory::{CoupledModes, Published, Resonance};
+
+/// Half width of a window about one resonance (dimensionless frequency).
+pub(super) const HALF_WIDTH: f64 = 0.6;
+/// Points of a boundary.
+const POINTS: usize = 161;
+
+/// Everything the boundaries depend on: the device without its excitation.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Structure {
+    numbers: [f64; 8],
+    model: ModelChoice,
+}
+
+impl Structure {
+    /// The structure of a scenario.
+    pub(super) fn of(scenario: &Scenario) -> Self {
+        let p = &scenario.parameters;
+        Self { numbers: [p.alpha, p.c0, p.d, p.h, p.eta, p.c, p.kappa, p.theta], model: scenario.model }
+    }
+}
+
+/// A resonance's frequency and its boundaries as (omega, beta); gaps are NaN.
+#[derive(Debug, Clone)]
+pub(super) struct Tongue {
+    /// Which resonance.
+    pub resonance: Resonance,
+    /// Frequency in the published theory.
+    pub published_frequency: f64,
+    /// Frequency of the coupled modes.
+    pub coupled_frequency: Option<f64>,
+    /// Published boundary.
+    pub published: Vec<PlotPoint>,
+    /// Coupled-mode boundary.
+    pub coupled: Vec<PlotPoint>,
+}
+
+/// All boundaries of a structure.
+#[derive(Debug, Clone)]
+pub(super) struct Boundaries {
+    /// What they belong to.
+    pub structure: Structure,
+    /// Natural frequencies.
+    pub frequencies: Vec<f64>,
+    /// One tongue a resonance; none for a single mode.
+    pub tongues: Vec<Tongue>,
+    /// The published theory, to ask about one point.
+    pub published: Option<Published>,
+    /// The coupled-mode theory, to ask about one point.
+    pub coupled: Option<CoupledModes>,
+}
+
+impl Boundaries {
+    /// Computes the boundaries of `system`; its excitation plays no role.
+    pub(super) fn new(structure: Structure, system: &ReducedSystem) -> Self {
+        let published = Published::new(system).ok();
+        let coupled = CoupledModes::new(system).ok();
+        let tongues = published.as_ref().map_or_else(Vec::new, |published| {
+            Resonance::ALL.map(|resonance| Tongue::new(resonance, published, coupled.as_ref())).into()
+        });
+        let frequencies = system.modes.iter().map(|mode| mode.omega).collect();
+        Self { structure, frequencies, tongues, published, coupled }
+    }
+
+    /// The tongue about a resonance.
+    pub(super) fn tongue(&self, resonance: Resonance) -> Option<&Tongue> {
+        self.tongues.iter().find(|tongue| tongue.resonance == resonance)
+    }
+
+    /// The resonance whose window holds `omega`.
+    pub(super) fn resonance_near(&self, omega: f64) -> Option<Resonance> {
+        let near = |tongue: &&Tongue| (tongue.published_frequency - omega).abs() <= HALF_WIDTH;
+        self.tongues.iter().find(near).map(|tongue| tongue.resonance)
+    }
+
+    /// Lowest and highest frequency of a window.
+    pub(super) fn range(&self, window: MapWindow) -> (f64, f64) {
+        let centre = window.resonance().and_then(|resonance| self.tongue(resonance));
+        match (centre, self.tongues.last()) {
+            (Some(tongue), _) => {
+                (tongue.published_frequency - HALF_WIDTH, tongue.published_frequency + HALF_WIDTH)
+            }
+            (None, Some(_)) => {
+                let highest =
+                    self.tongues.iter().map(|tongue| tongue.published_frequency).fold(0.0, f64::max);
+                (0.0, 1.12 * highest)
+            }
+            (None, None) => (0.0, 3.0 * self.frequencies[0]),
+        }
+    }
+
+    /// The window that shows `omega`, given the one open now.
+    pub(super) fn follow(&self, open: MapWindow, omega: f64) -> MapWindow {
+        let (low, high) = self.range(open);
+        if open != MapWindow::All && (low..=high).contains(&omega) {
+            return open;
+        }
+        match self.resonance_near(omega) {
+            Some(resonance) if open != MapWindow::All => MapWindow::about(resonance),
+            _ => MapWindow::All,
+        }
+    }
+}
+
+impl Tongue {
+    fn new(resonance: Resonance, published: &Published, coupled: Option<&CoupledModes>) -> Self {
+        let centre = published.frequency(resonance);
+        let frequencies =
+            || (0..POINTS).map(|i| centre + HALF_WIDTH * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0));
+        let place = |omega: f64, beta: Option<f64>| PlotPoint::new(omega, beta.unwrap_or(f64::NAN));
+        Self {
+            resonance,
+            published_frequency: centre,
+            coupled_frequency: coupled.map(|coupled| coupled.frequency(resonance)),
+            published: frequencies()
+                .map(|omega| place(omega, published.boundary(resonance, omega)))
+                .collect(),
+            coupled: coupled.map_or_else(Vec::new, |coupled| {
+                frequencies().map(|omega| place(omega, coupled.boundary(resonance, omega))).collect()
+            }),
+        }
+    }
+}

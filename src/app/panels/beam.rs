@@ -1,0 +1,68 @@
+//! The beam itself, in slow motion.
+
+use egui::Ui;
+
+use super::Context;
+use super::controls::short;
+use crate::app::command::Command;
+use crate::app::curves;
+use crate::app::widgets::{BeamView, Card, Icon};
+use crate::dynamics::Outcome;
+use crate::model::Device;
+
+/// Seconds an excitation period takes on the screen.
+const SECONDS_PER_PERIOD: f64 = 1.6;
+const HEIGHT: f32 = 210.0;
+
+/// Draws the card with the moving beam.
+pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(shown) = context.shown() else { return };
+    let (run, curves) = (&shown.run, &shown.curves);
+    let moves = context.view.beam_moves && run.outcome() == Outcome::Completed;
+    let period = run.system.parameters.period();
+    let slower = SECONDS_PER_PERIOD / (period * Device::default().time_unit());
+    let [from, to] = curves.repeat;
+    let clock = if context.view.beam_moves { ui.input(|input| input.time) } else { 0.0 };
+    let time = match run.outcome() {
+        Outcome::Completed => from + (clock / SECONDS_PER_PERIOD * period).rem_euclid((to - from).max(1e-9)),
+        Outcome::Escaped { .. } | Outcome::Contact { .. } => to,
+    };
+    let state = run.trajectory.state_at(time);
+    let p = &run.system.parameters;
+    let shape = curves::beam(&curves.shapes, &state);
+    let gap = run.system.equilibrium.gap;
+    let open = (gap + run.system.tip_displacement(&state)) / gap;
+    let hint = match run.outcome() {
+        Outcome::Completed if slower >= 1.05 => format!("{} times slower", short(slower)),
+        Outcome::Completed => String::new(),
+        Outcome::Escaped { .. } => "after the escape".to_owned(),
+        Outcome::Contact { .. } => "at contact".to_owned(),
+    };
+    let (icon, label) =
+        if context.view.beam_moves { (Icon::Pause, "Hold") } else { (Icon::Play, "Let it move") };
+    let card = Card::new("The beam").hint(&hint).button(icon, label).hugging().show(ui, |ui| {
+        let within = |shape: &[[f64; 2]]| shape.iter().all(|point| point[1].abs() < 1.0);
+        if !within(&shape) {
+            ui.label("The tip has left the picture: the truncated force lets it go.");
+            return;
+        }
+        let extremes: Vec<&[[f64; 2]]> = curves
+            .extremes
+            .iter()
+            .map(Vec::as_slice)
+            .filter(|shape| !shape.is_empty() && within(shape))
+            .collect();
+        let base = p.beta * (p.omega * time).sin();
+        let mut beam = BeamView::new(&shape, -gap).base(base).extremes(&extremes);
+        if p.c0 != 0.0 {
+            beam = beam.gap(open);
+        }
+        beam.show(ui, HEIGHT);
+    });
+    if card.pressed.is_some() {
+        context.commands.push(Command::MoveBeam(!context.view.beam_moves));
+    }
+    if moves {
+        ui.ctx().request_repaint_after(std::time::Duration::from_millis(33));
+    }
+}

@@ -1,0 +1,116 @@
+//! The left column: the three main controls, the folded structure, the beam.
+
+use std::f64::consts::TAU;
+
+use egui::Ui;
+
+use super::{Context, beam, structure};
+use crate::app::map::Boundaries;
+use crate::app::widgets::{Mark, ParameterSlider};
+use crate::model::{Device, Parameter, ParameterSet};
+
+/// Ends of the sliders; numbers beyond can come from a file or a request.
+const FREQUENCIES: (f64, f64) = (0.5, 65.0);
+const SMALLEST_DAMPING: f64 = 1e-6;
+const SMALLEST_EXCITATION: f64 = 1e-5;
+
+/// Draws the column.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    main_controls(context, ui);
+    ui.add_space(4.0);
+    rest(context, ui);
+}
+
+/// Structure and beam.
+pub(in crate::app) fn rest(context: &mut Context<'_>, ui: &mut Ui) {
+    structure::show(context, ui);
+    ui.add_space(4.0);
+    beam::show(context, ui);
+}
+
+/// Damping, excitation, frequency.
+pub(in crate::app) fn main_controls(context: &mut Context<'_>, ui: &mut Ui) {
+    let mut set = context.view.scenario.parameters;
+    let before = set;
+    let device = Device::default();
+    let boundaries = context.session.boundaries.as_ref();
+    let (damping, excitation) = (damping_in_words(boundaries, &set), excitation_in_words(&device, &set));
+    let frequency = frequency_in_words(&device, &set);
+    let default = ParameterSet::default();
+    let (low, high) = Parameter::Alpha.range();
+    ParameterSlider::new("Damping", "α", &mut set.alpha, low..=high)
+        .logarithmic_from(SMALLEST_DAMPING)
+        .default_value(default.alpha)
+        .tooltip("Kelvin-Voigt damping of the beam's material: the higher a mode, the more it takes.")
+        .equation("Eq. 8")
+        .secondary(&damping)
+        .show(ui);
+    let (low, high) = Parameter::Beta.range();
+    ParameterSlider::new("Excitation", "β", &mut set.beta, low..=high)
+        .logarithmic_from(SMALLEST_EXCITATION)
+        .default_value(default.beta)
+        .tooltip("Amplitude of the base's motion, in beam lengths.")
+        .equation("Eq. 8")
+        .secondary(&excitation)
+        .show(ui);
+    let marks = boundaries.map_or_else(Vec::new, resonance_marks);
+    ParameterSlider::new("Frequency", "ω", &mut set.omega, FREQUENCIES.0..=FREQUENCIES.1)
+        .marks(&marks)
+        .default_value(default.omega)
+        .tooltip("Angular frequency of the base's motion, in units of √(EI / m_b L³). Click a mark to go to a resonance.")
+        .equation("Eq. 8")
+        .secondary(&frequency)
+        .show(ui);
+    if set != before {
+        context.edit(|scenario| scenario.parameters = set);
+    }
+}
+
+/// Marks of the frequency slider, the secondary resonances first.
+fn resonance_marks(boundaries: &Boundaries) -> Vec<Mark> {
+    let frequencies = &boundaries.frequencies;
+    let first = frequencies[0];
+    let mut marks =
+        vec![Mark::new(2.0 * first, "2ω₁", "Twice the first natural frequency: first subharmonic resonance")];
+    if let Some(second) = frequencies.get(1) {
+        marks.push(Mark::new(first + second, "ω₁+ω₂", "Sum of the first two: combination resonance"));
+        marks.push(Mark::new(2.0 * second, "2ω₂", "Twice the second: second subharmonic resonance"));
+        marks.push(Mark::new(second - first, "ω₂−ω₁", "Difference of the first two: no resonance here"));
+        marks.push(Mark::new(first, "ω₁", "First natural frequency: primary resonance"));
+        marks.push(Mark::new(*second, "ω₂", "Second natural frequency: primary resonance"));
+    } else {
+        marks.push(Mark::new(first, "ω₁", "First natural frequency: primary resonance"));
+    }
+    marks.retain(|mark| (FREQUENCIES.0..=FREQUENCIES.1).contains(&mark.value));
+    marks
+}
+
+fn damping_in_words(boundaries: Option<&Boundaries>, set: &ParameterSet) -> String {
+    // The paper's beam alone, then with the circuit: the decay of the coupled modes.
+    let ratio = boundaries.and_then(|boundaries| boundaries.coupled.as_ref()).and_then(|coupled| {
+        coupled.modes().first().map(|mode| 100.0 * mode.decay / mode.decay.hypot(mode.frequency))
+    });
+    match ratio {
+        Some(percent) if set.alpha.is_finite() => {
+            format!("mode 1 with its circuit: damping ratio {percent:.2} %")
+        }
+        _ => String::new(),
+    }
+}
+
+fn excitation_in_words(device: &Device, set: &ParameterSet) -> String {
+    let amplitude = set.beta * device.beam_length;
+    let angular = set.omega / device.time_unit();
+    let acceleration = amplitude * angular * angular / device.gravity;
+    format!("B {} mm  ·  {} g", short(1e3 * amplitude), short(acceleration))
+}
+
+fn frequency_in_words(device: &Device, set: &ParameterSet) -> String {
+    let hertz = set.omega / (TAU * device.time_unit());
+    format!("{} Hz  ·  period {} s", short(hertz), short(1.0 / hertz))
+}
+
+/// Three significant digits.
+pub(in crate::app) fn short(value: f64) -> String {
+    crate::app::widgets::number::significant(value, 3)
+}

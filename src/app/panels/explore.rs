@@ -1,0 +1,59 @@
+//! The four linked plots, as many side by side as the page has room for.
+
+use egui::{Ui, vec2};
+
+use super::{Context, phase_portrait, poincare_map, stability_map, time_history, verdict};
+use crate::app::view::Panel;
+
+const GAP: f32 = 10.0;
+/// Least height of a plot's card.
+const LEAST_HEIGHT: f32 = 270.0;
+/// Width from which two cards stand side by side.
+const TWO_COLUMNS: f32 = 640.0;
+
+/// Draws verdict and plots.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    verdict::show(context, ui);
+    ui.add_space(GAP);
+    if let Some(panel) = context.view.enlarged {
+        let height = ui.available_height().max(LEAST_HEIGHT);
+        place(ui, ui.available_width(), height, |ui| draw(context, ui, panel));
+        return;
+    }
+    let panels = [Panel::StabilityMap, Panel::PhasePortrait, Panel::PoincareMap, Panel::TimeHistory];
+    grid(ui, &panels, |ui, panel| draw(context, ui, *panel));
+}
+
+/// Lays out cards of equal size in one or two columns that fill the page, or more when it is low.
+pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], mut draw: impl FnMut(&mut Ui, &T)) {
+    let columns = if ui.available_width() >= TWO_COLUMNS { 2 } else { 1 };
+    let rows = cards.len().div_ceil(columns);
+    let width = ((ui.available_width() - GAP * (columns - 1) as f32) / columns as f32).floor();
+    let height = ((ui.available_height() - GAP * (rows - 1) as f32) / rows as f32).floor().max(LEAST_HEIGHT);
+    for row in cards.chunks(columns) {
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing = vec2(GAP, 0.0);
+            for card in row {
+                place(ui, width, height, |ui| draw(ui, card));
+            }
+        });
+        ui.add_space(GAP - ui.spacing().item_spacing.y);
+    }
+}
+
+fn place(ui: &mut Ui, width: f32, height: f32, draw: impl FnOnce(&mut Ui)) {
+    ui.allocate_ui(vec2(width, height), |ui| {
+        ui.set_min_size(vec2(width, height));
+        ui.set_max_size(vec2(width, height));
+        draw(ui);
+    });
+}
+
+fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
+    match panel {
+        Panel::StabilityMap => stability_map::show(context, ui),
+        Panel::PhasePortrait => phase_portrait::show(context, ui),
+        Panel::PoincareMap => poincare_map::show(context, ui),
+        Panel::TimeHistory => time_history::show(context, ui),
+    }
+}

@@ -1,0 +1,67 @@
+//! The panels, one file each. They read the view and the session and push commands.
+
+pub(super) mod beam;
+pub(super) mod controls;
+pub(super) mod explore;
+pub(super) mod paper;
+pub(super) mod phase_portrait;
+pub(super) mod poincare_map;
+pub(super) mod stability_map;
+pub(super) mod structure;
+pub(super) mod time_history;
+pub(super) mod top_bar;
+pub(super) mod verdict;
+
+use super::command::{Command, Commands};
+use super::session::{Session, Shown, Status};
+use super::view::{Panel, View};
+use super::widgets::{Card, Icon};
+
+/// What a panel may look at, and where it leaves its wishes.
+pub(super) struct Context<'a> {
+    pub view: &'a View,
+    pub session: &'a Session,
+    pub commands: &'a mut Commands,
+}
+
+impl<'a> Context<'a> {
+    /// Asks for the scenario after `change`.
+    pub(super) fn edit(&mut self, change: impl FnOnce(&mut crate::scenario::Scenario)) {
+        let mut scenario = self.view.scenario.clone();
+        change(&mut scenario);
+        self.commands.push(Command::Show(Box::new(scenario)));
+    }
+
+    /// The newest answer.
+    pub(super) fn shown(&self) -> Option<&'a Shown> {
+        self.session.shown.as_ref()
+    }
+
+    /// Whether what is shown answers an older question: it is then drawn faintly.
+    pub(super) fn is_stale(&self) -> bool {
+        self.session.status() != Status::Done
+    }
+
+    /// A card for one of the four plots, with its button to enlarge; a press is carried out.
+    pub(super) fn plot_card(
+        &mut self,
+        ui: &mut egui::Ui,
+        panel: Panel,
+        title: &str,
+        hint: &str,
+        contents: impl FnOnce(&mut Self, &mut egui::Ui),
+    ) {
+        let large = self.view.enlarged == Some(panel);
+        let (icon, label) = if large { (Icon::Shrink, "Show all plots") } else { (Icon::Enlarge, "Enlarge") };
+        let card = Card::new(title).hint(hint).button(icon, label);
+        let shown = card.show(ui, |ui| {
+            if self.is_stale() {
+                ui.multiply_opacity(0.55);
+            }
+            contents(self, ui);
+        });
+        if shown.pressed.is_some() {
+            self.commands.push(Command::Enlarge((!large).then_some(panel)));
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Voltage against its rate of change.
+
+use egui::Ui;
+
+use super::Context;
+use crate::app::view::Panel;
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Series, legend};
+use crate::model::state_dimension;
+
+/// The axes that phase portrait and Poincare map share.
+pub(super) fn axes() -> (Axis, Axis) {
+    (Axis::new("voltage", "v").unit("V"), Axis::new("", "dv/dt"))
+}
+
+/// Draws the card.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    context.plot_card(ui, Panel::PhasePortrait, "Phase portrait", "click to start there", portrait);
+}
+
+fn portrait(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(shown) = context.shown() else { return };
+    let curves = &shown.curves;
+    let (x, y) = axes();
+    legend::legend(
+        ui,
+        &[(Series::Numeric, "computed"), (Series::Ghost, "start"), (Series::Theory, "first-order theory")],
+    );
+    let [width, height] = curves.extent;
+    let response = plot_style::plot(ui, "phase portrait", &x, &y)
+        .include_x(-1.05 * width)
+        .include_x(1.05 * width)
+        .include_y(-1.05 * height)
+        .include_y(1.05 * height)
+        .show(ui, |plot| {
+            if let Some(pinned) = &context.session.pinned {
+                plot_style::series(plot, Series::Ghost, "pinned", &pinned.curves.phase);
+            }
+            plot_style::series(plot, Series::Ghost, "start of the motion", &curves.transient);
+            plot_style::series(plot, Series::Numeric, "computed", &curves.phase);
+            plot_style::points(plot, Series::Theory, "first-order theory", &curves.theory_phase);
+        });
+    if let Some(at) = response.response.clicked().then(|| response.response.interact_pointer_pos()).flatten()
+    {
+        let place = response.transform.value_from_position(at);
+        let state = start_at(shown, place.x, place.y);
+        context.edit(|scenario| scenario.initial = Some(state));
+    }
+}
+
+/// A state with the given voltage and rate: mode 1 moves just as fast as the circuit needs, from zero deflection.
+fn start_at(shown: &crate::app::session::Shown, v: f64, dv_dt: f64) -> Vec<f64> {
+    let system = &shown.run.system;
+    let p = &system.parameters;
+    let n = system.modes.len();
+    let mut state = vec![0.0; state_dimension(n)];
+    state[2 * n] = v;
+    if system.theta[0] > 0.0 {
+        state[n] = (p.c * dv_dt + p.kappa * v) / system.theta[0];
+    }
+    state
+}

@@ -1,0 +1,121 @@
+//! The (omega, beta) plane with the boundaries of both theories and the operating point to drag.
+
+use egui::Ui;
+use egui_plot::{PlotBounds, PlotPoint};
+
+use super::Context;
+use crate::app::command::Command;
+use crate::app::map::Boundaries;
+use crate::app::view::{MapWindow, Panel};
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Series, chips, legend};
+use crate::model::Parameter;
+use crate::theory::Resonance;
+
+/// Upper ends that the excitation axis may have.
+const CEILINGS: [f64; 7] = [0.003, 0.0075, 0.015, 0.04, 0.08, 0.15, 0.2];
+/// The lowest ceiling of each window, at which its tongue is seen.
+const fn least_ceiling(window: MapWindow) -> f64 {
+    match window {
+        MapWindow::First | MapWindow::Sum => 0.015,
+        MapWindow::All | MapWindow::Second => 0.04,
+    }
+}
+
+/// Draws the map's card.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let title = match context.view.map.resonance() {
+        None => "Stability map",
+        Some(Resonance::First) => "Stability near 2ω₁",
+        Some(Resonance::Sum) => "Stability near ω₁+ω₂",
+        Some(Resonance::Second) => "Stability near 2ω₂",
+    };
+    context.plot_card(ui, Panel::StabilityMap, title, "drag or click to move", |context, ui| {
+        let Some(boundaries) = &context.session.boundaries else { return };
+        if boundaries.tongues.is_empty() {
+            let rect = ui.available_rect_before_wrap();
+            plot_style::no_data(ui, rect, "The resonances of the paper need at least two modes.");
+            return;
+        }
+        header(context, ui);
+        map(context, ui, boundaries);
+    });
+}
+
+fn header(context: &mut Context<'_>, ui: &mut Ui) {
+    let mut window = context.view.map;
+    ui.horizontal_wrapped(|ui| {
+        let windows = [
+            (MapWindow::All, "all"),
+            (MapWindow::First, "2ω₁"),
+            (MapWindow::Sum, "ω₁+ω₂"),
+            (MapWindow::Second, "2ω₂"),
+        ];
+        chips(ui, "Resonance", &mut window, &windows);
+        ui.add_space(6.0);
+        legend::legend(ui, &[(Series::Published, "published"), (Series::Coupled, "coupled modes")]);
+    });
+    if window != context.view.map {
+        context.commands.push(Command::LookAt(window));
+    }
+}
+
+fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
+    let p = context.view.scenario.parameters;
+    let window = context.view.map;
+    let (low, high) = boundaries.range(window);
+    let wanted = (1.15 * p.beta).max(least_ceiling(window));
+    let ceiling = CEILINGS.into_iter().find(|ceiling| *ceiling >= wanted).unwrap_or(0.2);
+    let (x, y) = (Axis::new("excitation frequency", "ω"), Axis::new("excitation amplitude", "β"));
+    let plot = plot_style::plot(ui, ("stability map", window), &x, &y)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_double_click_reset(false);
+    let pinned = context.session.pinned.as_ref().map(|pinned| {
+        let p = &pinned.scenario.parameters;
+        PlotPoint::new(p.omega, p.beta)
+    });
+    let shown = plot.show(ui, |plot| {
+        plot.set_plot_bounds(PlotBounds::from_min_max([low, -0.02 * ceiling], [high, ceiling]));
+        for tongue in &boundaries.tongues {
+            plot_style::area_above(plot, Series::Coupled, &tongue.coupled, ceiling);
+        }
+        for tongue in &boundaries.tongues {
+            plot_style::series(plot, Series::Published, "published boundary", &tongue.published);
+            plot_style::series(plot, Series::Coupled, "coupled-mode boundary", &tongue.coupled);
+        }
+        label_regions(plot, boundaries, window, ceiling);
+        plot_style::points(plot, Series::Ghost, "pinned", pinned.as_slice());
+    });
+    let drag = plot_style::operating_point(ui, &shown, "Operating point", [p.omega, p.beta]);
+    if let Some([omega, beta]) = drag.moved {
+        let (least, most) = Parameter::Omega.range();
+        context.edit(|scenario| {
+            scenario.parameters.omega = round(omega.clamp(least.max(low), most.min(high)), 5);
+            scenario.parameters.beta = round(beta.clamp(0.0, ceiling), 4);
+        });
+    }
+}
+
+/// Names of the regions where there is room for them.
+fn label_regions(plot: &mut egui_plot::PlotUi<'_>, boundaries: &Boundaries, window: MapWindow, ceiling: f64) {
+    let name = |resonance| match resonance {
+        Resonance::Sum => "combination",
+        Resonance::First | Resonance::Second => "period doubling",
+    };
+    for tongue in &boundaries.tongues {
+        let lowest =
+            tongue.coupled.iter().filter(|point| point.y.is_finite()).min_by(|a, b| a.y.total_cmp(&b.y));
+        let Some(tip) = lowest.filter(|tip| tip.y < 0.8 * ceiling) else { continue };
+        if window == MapWindow::All || window.resonance() == Some(tongue.resonance) {
+            let height = tip.y + 0.82 * (ceiling - tip.y);
+            plot_style::labelled_place(plot, name(tongue.resonance), [tip.x, height], Series::Coupled);
+        }
+    }
+}
+
+/// Rounds to significant digits, so that a dragged number stays short.
+fn round(value: f64, digits: usize) -> f64 {
+    crate::app::widgets::number::round_significant(value, digits)
+}

@@ -1,0 +1,158 @@
+//! The folded controls: magnet, beam, circuit, model, start.
+
+use egui::Ui;
+
+use super::Context;
+use super::controls::short;
+use crate::app::widgets::{Fold, ParameterSlider, chips};
+use crate::model::{ForceLaw, MAX_MODES, Parameter, ParameterSet, state_dimension};
+use crate::scenario::{END_TIME, Scenario};
+
+/// Degree a Taylor law starts with.
+const FIRST_DEGREE: usize = 5;
+
+/// Draws the sections.
+pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let scenario = context.view.scenario.clone();
+    let mut changed = scenario.clone();
+    let p = &scenario.parameters;
+    let (c0, d, h, eta) = (short(p.c0), short(p.d), short(p.h), short(p.eta));
+    let (kappa, theta) = (short(p.kappa), short(p.theta));
+    Fold::new("Magnet").summary(&format!("c₀ {c0}  d {d}  h {h}")).show(ui, |ui| {
+        number(ui, &mut changed.parameters, Parameter::C0);
+        number(ui, &mut changed.parameters, Parameter::D);
+        number(ui, &mut changed.parameters, Parameter::H);
+    });
+    Fold::new("Beam and tip mass").summary(&format!("η {eta}")).show(ui, |ui| {
+        number(ui, &mut changed.parameters, Parameter::Eta);
+    });
+    Fold::new("Circuit").summary(&format!("κ {kappa}  θ {theta}")).show(ui, |ui| {
+        number(ui, &mut changed.parameters, Parameter::C);
+        number(ui, &mut changed.parameters, Parameter::Kappa);
+        number(ui, &mut changed.parameters, Parameter::Theta);
+    });
+    Fold::new("Model").summary(&model_in_words(&scenario)).show(ui, |ui| model(ui, &mut changed));
+    Fold::new("Start").summary(&start_in_words(&scenario)).show(ui, |ui| start(ui, &mut changed));
+    if changed != scenario {
+        context.edit(|scenario| *scenario = changed);
+    }
+}
+
+/// One compact slider; its range, scale and words.
+fn number(ui: &mut Ui, set: &mut ParameterSet, parameter: Parameter) {
+    let (name, symbol, tooltip, floor) = match parameter {
+        Parameter::C0 => {
+            ("Strength", "c₀", "Magnet strength: positive repels, negative attracts, 0 is no magnet.", None)
+        }
+        Parameter::D => (
+            "Gap",
+            "d",
+            "Distance of the magnets with the beam sagged but unbent by them, in beam lengths.",
+            Some(0.01),
+        ),
+        Parameter::H => ("Magnet length", "h", "Length of each magnet, in beam lengths.", Some(1e-5)),
+        Parameter::Eta => ("Tip mass", "η", "Mass at the tip over the mass of the beam.", Some(1e-3)),
+        Parameter::C => {
+            ("Capacitance", "c", "Capacitance of the ceramic, times one volt squared.", Some(1e-9))
+        }
+        Parameter::Kappa => (
+            "Load",
+            "κ",
+            "Conductance of the load, times one volt squared: large κ is a small resistance.",
+            Some(1e-9),
+        ),
+        Parameter::Theta => {
+            ("Coupling", "θ", "Electromechanical coupling: bending moment of one volt.", Some(1e-6))
+        }
+        Parameter::Alpha | Parameter::Beta | Parameter::Omega => return,
+    };
+    let default = parameter.get(&ParameterSet::default());
+    let (low, high) = parameter.range();
+    let value = parameter.get_mut(set);
+    let slider = ParameterSlider::new(name, symbol, value, low..=high)
+        .default_value(default)
+        .tooltip(tooltip)
+        .equation("Eq. 8")
+        .compact();
+    match floor {
+        Some(smallest) if low == 0.0 => slider.logarithmic_from(smallest),
+        Some(_) => slider.logarithmic(),
+        None => slider,
+    }
+    .show(ui);
+}
+
+fn law_in_words(law: ForceLaw) -> String {
+    match law {
+        ForceLaw::Quadratic => "quadratic".into(),
+        ForceLaw::Taylor(degree) => format!("Taylor {degree}"),
+        ForceLaw::Exact => "exact".into(),
+    }
+}
+
+fn model_in_words(scenario: &Scenario) -> String {
+    let modes = scenario.model.modes;
+    let plural = if modes == 1 { "mode" } else { "modes" };
+    format!("{modes} {plural} · {} force", law_in_words(scenario.model.force))
+}
+
+fn model(ui: &mut Ui, scenario: &mut Scenario) {
+    let numbers: Vec<String> = (1..=MAX_MODES).map(|n| n.to_string()).collect();
+    let choices: Vec<(usize, &str)> = (1..=MAX_MODES).zip(numbers.iter().map(String::as_str)).collect();
+    let mut modes = scenario.model.modes;
+    ui.label("Modes kept in the truncation, Eq. 30");
+    if chips(ui, "Modes", &mut modes, &choices) {
+        scenario.set_modes(modes);
+    }
+    ui.add_space(4.0);
+    ui.label("Magnet force beyond its linear part, Eq. 16");
+    let degree = match scenario.model.force {
+        ForceLaw::Taylor(degree) => degree,
+        _ => FIRST_DEGREE,
+    };
+    let laws = [
+        (ForceLaw::Quadratic, "quadratic"),
+        (ForceLaw::Taylor(degree), "Taylor"),
+        (ForceLaw::Exact, "exact"),
+    ];
+    chips(ui, "Force law", &mut scenario.model.force, &laws);
+    if let ForceLaw::Taylor(degree) = &mut scenario.model.force {
+        let mut value = *degree as f64;
+        let slider = ParameterSlider::new("Degree", "J", &mut value, 2.0..=ForceLaw::MAX_DEGREE as f64);
+        slider.tooltip("Highest power of the tip displacement that is kept.").compact().show(ui);
+        *degree = (value.round() as usize).clamp(2, ForceLaw::MAX_DEGREE);
+    }
+    ui.add_space(6.0);
+}
+
+fn start_in_words(scenario: &Scenario) -> String {
+    let from = if scenario.initial.is_some() { "chosen state" } else { "from rest" };
+    format!("{from} · to t = {}", short(scenario.t_end))
+}
+
+fn start(ui: &mut Ui, scenario: &mut Scenario) {
+    let modes = scenario.model.modes;
+    let mut from_rest = scenario.initial.is_none();
+    if chips(ui, "Start", &mut from_rest, &[(true, "from rest"), (false, "chosen state")]) {
+        scenario.initial = (!from_rest).then(|| vec![0.0; state_dimension(modes)]);
+    }
+    if let Some(state) = &mut scenario.initial {
+        let field = |ui: &mut Ui, name: &str, symbol: &str, value: &mut f64, limit: f64, tooltip: &str| {
+            ParameterSlider::new(name, symbol, value, -limit..=limit)
+                .default_value(0.0)
+                .tooltip(tooltip)
+                .compact()
+                .show(ui);
+        };
+        field(ui, "Deflection", "q₁", &mut state[0], 0.5, "Tip displacement in mode 1, in beam lengths.");
+        field(ui, "Velocity", "dq₁/dt", &mut state[modes], 5.0, "Tip velocity in mode 1.");
+        field(ui, "Voltage", "v", &mut state[2 * modes], 100.0, "Voltage at the start, in volts.");
+    }
+    ParameterSlider::new("Duration", "t", &mut scenario.t_end, END_TIME.0..=END_TIME.1)
+        .logarithmic()
+        .default_value(600.0)
+        .tooltip("Length of the run, in units of √(m_b L³ / EI): 0.454 s for the paper's device.")
+        .compact()
+        .show(ui);
+    ui.add_space(6.0);
+}

@@ -1,0 +1,86 @@
+//! Name, tabs, and the switches that concern the whole page.
+
+use egui::Ui;
+
+use super::Context;
+use crate::app::command::Command;
+use crate::app::session::Status;
+use crate::app::view::Tab;
+use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, tabs};
+use crate::app::{fonts, theme};
+
+/// Width below which the switches move under the tabs.
+const NARROW: f32 = 560.0;
+
+/// Draws the bar.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let narrow = ui.available_width() < NARROW;
+    if narrow {
+        ui.vertical(|ui| {
+            ui.horizontal(|ui| {
+                title(ui);
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| switches(context, ui));
+            });
+            ui.horizontal(|ui| {
+                choose_tab(context, ui);
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| status(context, ui));
+            });
+        });
+    } else {
+        ui.horizontal(|ui| {
+            title(ui);
+            ui.add_space(8.0);
+            choose_tab(context, ui);
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                switches(context, ui);
+                ui.add_space(6.0);
+                status(context, ui);
+            });
+        });
+    }
+}
+
+fn title(ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let font = fonts::semibold(theme::size::HEADING);
+    ui.label(egui::RichText::new("Harvester Lab").font(font).color(tokens.text_strong));
+}
+
+fn choose_tab(context: &mut Context<'_>, ui: &mut Ui) {
+    let mut tab = context.view.tab;
+    if tabs(ui, &mut tab, &[(Tab::Explore, "Explore"), (Tab::Paper, "Paper")]) {
+        context.commands.push(Command::OpenTab(tab));
+    }
+}
+
+fn status(context: &Context<'_>, ui: &mut Ui) {
+    match context.session.status() {
+        Status::Done => badge(ui, BadgeKind::Converged, "computed"),
+        Status::Computing(part) => {
+            badge(ui, BadgeKind::Computing, &format!("computing {:.0} %", 100.0 * part))
+        }
+        Status::Failed(_) => badge(ui, BadgeKind::Error, "no answer"),
+    };
+}
+
+fn switches(context: &mut Context<'_>, ui: &mut Ui) {
+    let dark = theme::tokens(ui).dark;
+    let (icon, label) = if dark { (Icon::Sun, "Light theme") } else { (Icon::Moon, "Dark theme") };
+    if icon_button(ui, icon, label).clicked() {
+        context.commands.push(Command::SetDark(!dark));
+    }
+    let large = context.view.projector;
+    let label = if large { "Normal type" } else { "Large type for a projector" };
+    if icon_button(ui, if large { Icon::Shrink } else { Icon::Enlarge }, label).clicked() {
+        context.commands.push(Command::SetProjector(!large));
+    }
+    let pinned = context.session.pinned.is_some();
+    let (icon, label) = if pinned {
+        (Icon::Close, "Drop the pinned curves")
+    } else {
+        (Icon::Pin, "Pin: keep these curves as grey ghosts to compare with")
+    };
+    if icon_button(ui, icon, label).clicked() {
+        context.commands.push(Command::Pin(!pinned));
+    }
+}

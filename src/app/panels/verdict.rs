@@ -1,0 +1,63 @@
+//! The bar above the plots that says in words what they show.
+
+use egui::{RichText, Ui};
+
+use super::Context;
+use crate::app::reading::{Reading, Tone};
+use crate::app::session::Status;
+use crate::app::{fonts, theme};
+
+/// Draws the bar.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let Some(shown) = context.shown() else { return };
+    let failure = match context.session.status() {
+        Status::Failed(message) => Some(message),
+        _ => None,
+    };
+    let reading = Reading::new(shown, context.session.boundaries.as_ref());
+    let colour = match (failure.is_some(), reading.tone) {
+        (true, _) | (_, Tone::Alarming) => tokens.danger,
+        (_, Tone::Notable) => tokens.warning,
+        (_, Tone::Plain) => tokens.ok,
+    };
+    let frame = egui::Frame::new()
+        .fill(tokens.card)
+        .corner_radius(theme::radius::CARD)
+        .inner_margin(egui::Margin { left: 16, right: 12, top: 8, bottom: 9 });
+    let drawn = frame.show(ui, |ui| {
+        ui.set_min_width(ui.available_width());
+        if let Some(message) = failure {
+            let text = format!("{message}. The last good state stays on the screen.");
+            ui.label(RichText::new(text).color(tokens.danger));
+            return;
+        }
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 10.0;
+            ui.label(
+                RichText::new(&reading.headline).font(fonts::semibold(theme::size::HEADING)).color(colour),
+            );
+            separated(ui, &reading.facts, |text| RichText::new(text).color(tokens.text));
+        });
+        if !reading.remarks.is_empty() {
+            ui.horizontal_wrapped(|ui| {
+                ui.spacing_mut().item_spacing.x = 8.0;
+                separated(ui, &reading.remarks, |text| RichText::new(text).small().color(tokens.text_weak));
+            });
+        }
+    });
+    let rect = drawn.response.rect;
+    let stripe = egui::Rect::from_min_max(rect.min, egui::pos2(rect.left() + 5.0, rect.bottom()));
+    let rounding = egui::CornerRadius { nw: theme::radius::CARD, sw: theme::radius::CARD, ne: 0, se: 0 };
+    ui.painter().rect_filled(stripe, rounding, colour);
+}
+
+/// Texts with a middle dot between them.
+fn separated(ui: &mut Ui, texts: &[String], style: impl Fn(String) -> RichText) {
+    for (i, text) in texts.iter().enumerate() {
+        if i > 0 {
+            ui.label(style("·".to_owned()));
+        }
+        ui.label(style(text.clone()));
+    }
+}

@@ -1,0 +1,85 @@
+//! State and results as JSON, for `window.harvester` and its users.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::session::{Session, Status};
+use super::view::View;
+use crate::dynamics::Outcome;
+use crate::dynamics::poincare::{PhasePoint, Recurrence};
+use crate::dynamics::summary::Summary;
+use crate::scenario::Scenario;
+
+#[derive(Serialize)]
+struct State<'a> {
+    view: &'a View,
+    /// "done", "computing" or "failed".
+    status: &'static str,
+    error: Option<String>,
+    /// Numbers of the newest question and of the one whose answer is shown.
+    generation: u64,
+    shown_generation: Option<u64>,
+    /// Frames from question to answer, the last ones.
+    frames_to_answer: &'a std::collections::VecDeque<u64>,
+    result: Option<Answer<'a>>,
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    scenario: &'a Scenario,
+    outcome: Outcome,
+    end_time: f64,
+    final_state: &'a [f64],
+    steps: usize,
+    summary: Option<Summary>,
+    recurrence: Option<Recurrence>,
+    strobe_count: usize,
+    last_strobe: Option<&'a PhasePoint>,
+}
+
+/// The answer of `harvester.state()`.
+pub(super) fn state(view: &View, session: &Session) -> String {
+    let (status, error) = match session.status() {
+        Status::Done => ("done", None),
+        Status::Computing(_) => ("computing", None),
+        Status::Failed(message) => ("failed", Some(message)),
+    };
+    let result = session.shown.as_ref().map(|shown| Answer {
+        scenario: &shown.scenario,
+        outcome: shown.run.outcome(),
+        end_time: shown.run.trajectory.end_time(),
+        final_state: shown.run.trajectory.final_state(),
+        steps: shown.run.trajectory.len(),
+        summary: shown.run.summary,
+        recurrence: shown.run.recurrence,
+        strobe_count: shown.run.strobe.len(),
+        last_strobe: shown.run.strobe.last(),
+    });
+    let state = State {
+        view,
+        status,
+        error,
+        generation: session.generation,
+        shown_generation: session.shown.as_ref().map(|shown| shown.generation),
+        frames_to_answer: &session.delays,
+        result,
+    };
+    serde_json::to_string(&state).unwrap_or_default()
+}
+
+/// Reads a view, or a scenario alone, which leaves the rest of `present` as it is.
+///
+/// # Errors
+/// One line with the path of the field and what is wrong with it.
+pub(super) fn parse(json: &str, present: &View) -> Result<View, String> {
+    let value: Value = serde_json::from_str(json).map_err(|error| format!("not valid JSON: {error}"))?;
+    let is_view = value.get("scenario").is_some();
+    let describe =
+        |error: serde_path_to_error::Error<serde_json::Error>| format!("{}: {}", error.path(), error.inner());
+    if is_view {
+        serde_path_to_error::deserialize(value).map_err(describe)
+    } else {
+        let scenario = serde_path_to_error::deserialize(value).map_err(describe)?;
+        Ok(View { scenario, ..present.clone() })
+    }
+}

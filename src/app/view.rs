@@ -1,0 +1,142 @@
+//! What the user chose: the scenario and how it is looked at. This is what the page remembers.
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::ParameterSet;
+use crate::scenario::Scenario;
+use crate::theory::Resonance;
+
+/// The tabs of the top bar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Tab {
+    /// The four linked plots.
+    #[default]
+    Explore,
+    /// The paper's figures and tables.
+    Paper,
+}
+
+/// Which part of the (omega, beta) plane the stability map shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MapWindow {
+    /// All three resonances.
+    #[default]
+    All,
+    /// About twice the first natural frequency.
+    First,
+    /// About the sum of the first two.
+    Sum,
+    /// About twice the second.
+    Second,
+}
+
+impl MapWindow {
+    /// The resonance in the middle of the window.
+    pub fn resonance(self) -> Option<Resonance> {
+        match self {
+            Self::All => None,
+            Self::First => Some(Resonance::First),
+            Self::Sum => Some(Resonance::Sum),
+            Self::Second => Some(Resonance::Second),
+        }
+    }
+
+    /// The window about a resonance.
+    pub fn about(resonance: Resonance) -> Self {
+        match resonance {
+            Resonance::First => Self::First,
+            Resonance::Sum => Self::Sum,
+            Resonance::Second => Self::Second,
+        }
+    }
+}
+
+/// The panels that can be made large.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Panel {
+    /// Stability map.
+    StabilityMap,
+    /// Phase portrait.
+    PhasePortrait,
+    /// Poincare map.
+    PoincareMap,
+    /// Time history.
+    TimeHistory,
+}
+
+/// Scenario and view, as stored.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct View {
+    /// What is computed.
+    pub scenario: Scenario,
+    /// The tab in front.
+    pub tab: Tab,
+    /// Dark or light; the system's choice when absent.
+    pub dark: Option<bool>,
+    /// Large type for the lecture room.
+    pub projector: bool,
+    /// Window of the stability map.
+    pub map: MapWindow,
+    /// The figure of the paper that was loaded last.
+    pub figure: u8,
+    /// The panel that fills the page.
+    pub enlarged: Option<Panel>,
+    /// Whether the beam moves.
+    pub beam_moves: bool,
+}
+
+impl Default for View {
+    /// Opens where there is something to see: the paper's period-doubled motion, Figure 9.
+    fn default() -> Self {
+        let parameters = ParameterSet { alpha: 1e-4, beta: 1e-2, omega: 8.0969, ..ParameterSet::default() };
+        Self {
+            scenario: Scenario { parameters, ..Scenario::default() },
+            tab: Tab::Explore,
+            dark: None,
+            projector: false,
+            map: MapWindow::First,
+            figure: 9,
+            enlarged: None,
+            beam_moves: true,
+        }
+    }
+}
+
+impl View {
+    /// What an earlier session stored, and a sentence about it when it cannot be used.
+    pub fn restore(stored: Option<&str>) -> (Self, Option<String>) {
+        let Some(text) = stored else { return (Self::default(), None) };
+        let view = serde_json::from_str::<Self>(text)
+            .map_err(|error| error.to_string())
+            .and_then(|view| view.scenario.validate().map(|_| view).map_err(|error| error.to_string()));
+        match view {
+            Ok(view) => (view, None),
+            Err(reason) => {
+                let message =
+                    format!("The stored state could not be used ({reason}); this is a fresh start.");
+                (Self::default(), Some(message))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_view_round_trips_and_garbage_gives_a_fresh_start_with_a_reason() {
+        let view = View { tab: Tab::Paper, projector: true, ..Default::default() };
+        let text = serde_json::to_string(&view).expect("a view is plain data");
+        assert_eq!(View::restore(Some(&text)), (view, None));
+        for garbage in ["", "{", "[1]", r#"{"scenario":{"parameters":{"beta":7}}}"#] {
+            let (view, message) = View::restore(Some(garbage));
+            assert_eq!(view, View::default());
+            assert!(message.is_some_and(|message| message.contains("could not be used")));
+        }
+    }
+}
