@@ -130,6 +130,31 @@ fn without_coupling_the_circuit_has_its_own_eigenvalue_and_the_modes_the_mechani
 }
 
 #[test]
+fn a_circuit_far_faster_or_slower_than_the_beam_leaves_the_eigenvalues_their_digits() -> TestResult {
+    // The matrix holds kappa/c = 2e6 beside the slowest mode's decay of 2e-6.
+    let set = ParameterSet {
+        c: 1e-9,
+        kappa: 2e-3,
+        alpha: 1e-6,
+        theta: 0.0,
+        c0: 0.0,
+        eta: 90.0,
+        ..Default::default()
+    };
+    let fast = system(set, 8)?;
+    let values = eigenvalues(&fast)?;
+    assert!((values[0] + 2e6).norm() < 1e-9);
+    for (mode, pair) in fast.modes.iter().zip(values[1..].chunks(2)) {
+        let decay = 5e-7 * mode.omega * mode.omega;
+        assert!((pair[0].re + decay).abs() < 1e-8 * decay, "{} {decay}", pair[0]);
+    }
+    // An open circuit keeps any charge for ever.
+    let open = system(ParameterSet { kappa: 0.0, ..Default::default() }, 8)?;
+    assert!(eigenvalues(&open)?[0].norm() < 1e-12);
+    Ok(())
+}
+
+#[test]
 fn undamped_resonance_has_no_linear_steady_state() -> TestResult {
     let free = system(ParameterSet { alpha: 0.0, theta: 0.0, c0: 0.0, ..Default::default() }, 2)?;
     let resonant = free.with_excitation(1e-3, free.modes[1].omega)?;

@@ -142,6 +142,35 @@ fn the_published_growth_rates_are_those_of_the_slow_equations() -> TestResult {
 }
 
 #[test]
+fn the_eigenvalues_of_beam_and_circuit() -> TestResult {
+    // Eigenvalues of the unscaled matrix A in 40-digit arithmetic, alpha = 1e-4: first the circuit's, then one a mode.
+    let two = [
+        (-0.978057761744196, 0.0),
+        (-0.00780662006538647, 4.07827174622026),
+        (-0.026320304751957, 21.4365186744992),
+    ];
+    let four = [
+        (-0.974336273997493, 0.0),
+        (-0.00775444839815114, 4.07816926022561),
+        (-0.0262900149400073, 21.4361744165684),
+        (-0.179050173097382, 59.7352988605237),
+        (-0.685820359415701, 117.150815001317),
+    ];
+    for (modes, references) in [(2, &two[..]), (4, &four[..])] {
+        let coupled = CoupledModes::new(&damped(1e-4, modes)?)?;
+        let upper: Vec<_> = coupled.eigenvalues().iter().filter(|value| value.im >= 0.0).collect();
+        assert_eq!((upper.len(), coupled.eigenvalues().len()), (modes + 1, 2 * modes + 1));
+        for (value, (re, im)) in upper.into_iter().zip(references) {
+            assert!(close(value.re, *re, 1e-13) && close(value.im, *im, 1e-14), "{value} {re} {im}");
+        }
+        for (mode, (re, im)) in coupled.modes().iter().zip(&references[1..]) {
+            assert!(close(-mode.decay, *re, 1e-13) && close(mode.frequency, *im, 1e-14));
+        }
+    }
+    Ok(())
+}
+
+#[test]
 fn the_coupled_boundaries_of_two_modes() -> TestResult {
     for (alpha, omega, resonance, reference, _) in COUPLED {
         let beta = CoupledModes::new(&damped(alpha, 2)?)?.boundary(resonance, omega);

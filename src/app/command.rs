@@ -5,7 +5,7 @@ use crate::scenario::Scenario;
 
 /// A wish of the user.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Command {
+pub(super) enum Command {
     /// Compute and show this from now on.
     Show(Box<Scenario>),
     /// Bring a tab to the front.
@@ -29,4 +29,4 @@ pub enum Command {
 }
 
 /// The commands of a frame.
-pub type Commands = Vec<Command>;
+pub(super) type Commands = Vec<Command>;

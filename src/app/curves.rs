@@ -15,7 +15,9 @@ const TRANSIENT_PERIODS: f64 = 30.0;
 /// Periods in the close view of the time history.
 const CLOSE_PERIODS: f64 = 6.0;
 /// Dots that stand for the theory on one period.
-const THEORY_DOTS: usize = 26;
+const THEORY_DOTS: usize = 48;
+/// The same in the close view, where six periods share the width.
+const CLOSE_DOTS: usize = 14;
 /// Samples of a run that ended early.
 const EARLY_SAMPLES: usize = 3000;
 /// Points along the beam.
@@ -132,14 +134,14 @@ impl Curves {
         let period = run.system.parameters.period();
         let voltage = theory.voltage;
         let place = |time: f64| PlotPoint::new(voltage.value(time), voltage.rate(time));
-        let times = |from: f64, periods: f64| {
-            let count = (THEORY_DOTS as f64 * periods) as usize;
-            (0..count).map(move |i| from + period * i as f64 / THEORY_DOTS as f64)
+        let times = |from: f64, count: usize, dots: usize| {
+            (0..count).map(move |i| from + period * i as f64 / dots as f64)
         };
-        self.theory_phase = times(0.0, 1.0).map(place).collect();
+        self.theory_phase = times(0.0, THEORY_DOTS, THEORY_DOTS).map(place).collect();
         let start = ((end / period).floor() - CLOSE_PERIODS).max(0.0) * period;
+        let dots = CLOSE_DOTS * CLOSE_PERIODS as usize;
         self.theory_close =
-            times(start, CLOSE_PERIODS).map(|time| PlotPoint::new(time, voltage.value(time))).collect();
+            times(start, dots, CLOSE_DOTS).map(|time| PlotPoint::new(time, voltage.value(time))).collect();
         self.theory_strobe = Some(place(0.0));
     }
 }

@@ -44,6 +44,8 @@ pub(super) struct Figure {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BoundaryFigure {
     pub resonance: Resonance,
+    /// Upper end of the excitation axis, at which the curves are seen.
+    pub ceiling: f64,
     pub dampings: [f64; 4],
     pub point: &'static str,
     pub omega: f64,
@@ -228,7 +230,12 @@ impl Figure {
     pub(super) fn boundaries(&self) -> Option<BoundaryFigure> {
         match self.kind {
             Kind::Boundaries { resonance, dampings, point, omega } => {
-                Some(BoundaryFigure { resonance, dampings, point, omega })
+                let ceiling = match resonance {
+                    Resonance::Sum => 0.03,
+                    Resonance::First => 0.02,
+                    Resonance::Second => 0.06,
+                };
+                Some(BoundaryFigure { resonance, ceiling, dampings, point, omega })
             }
             Kind::Response { .. } => None,
         }

@@ -34,8 +34,6 @@ pub(super) struct Tongue {
     pub resonance: Resonance,
     /// Frequency in the published theory.
     pub published_frequency: f64,
-    /// Frequency of the coupled modes.
-    pub coupled_frequency: Option<f64>,
     /// Published boundary.
     pub published: Vec<PlotPoint>,
     /// Coupled-mode boundary.
@@ -63,7 +61,9 @@ impl Boundaries {
         let published = Published::new(system).ok();
         let coupled = CoupledModes::new(system).ok();
         let tongues = published.as_ref().map_or_else(Vec::new, |published| {
-            Resonance::ALL.map(|resonance| Tongue::new(resonance, published, coupled.as_ref())).into()
+            Resonance::ALL
+                .map(|resonance| Tongue::new(resonance, HALF_WIDTH, published, coupled.as_ref()))
+                .into()
         });
         let frequencies = system.modes.iter().map(|mode| mode.omega).collect();
         Self { structure, frequencies, tongues, published, coupled }
@@ -110,7 +110,13 @@ impl Boundaries {
 }
 
 impl Tongue {
-    fn new(resonance: Resonance, published: &Published, coupled: Option<&CoupledModes>) -> Self {
+    /// The boundaries of one resonance; the coupled ones are empty without that theory.
+    pub(super) fn new(
+        resonance: Resonance,
+        half_width: f64,
+        published: &Published,
+        coupled: Option<&CoupledModes>,
+    ) -> Self {
         let centre = published.frequency(resonance);
         let frequencies =
             || (0..POINTS).map(|i| centre + HALF_WIDTH * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0));
@@ -118,7 +124,6 @@ impl Tongue {
         Self {
             resonance,
             published_frequency: centre,
-            coupled_frequency: coupled.map(|coupled| coupled.frequency(resonance)),
             published: frequencies()
                 .map(|omega| place(omega, published.boundary(resonance, omega)))
                 .collect(),

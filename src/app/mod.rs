@@ -10,8 +10,10 @@ pub mod theme;
 pub mod view;
 pub mod widgets;
 
+mod caption;
 mod clock;
 mod command;
+mod comparison;
 mod curves;
 mod figures;
 mod map;
@@ -55,6 +57,12 @@ impl App {
     /// Work that goes on while the page is hidden.
     pub fn logic(&mut self, context: &egui::Context) {
         self.session.work();
+        if self.view.tab == Tab::Paper {
+            let figure = figures::figure(self.view.figure);
+            if self.session.compare(figure, &self.view.scenario) {
+                context.request_repaint();
+            }
+        }
         if matches!(self.session.status(), Status::Computing(_)) {
             context.request_repaint();
         }
@@ -114,8 +122,8 @@ impl App {
     }
 
     fn load_figure(&mut self, number: u8) {
-        let Some(figure) = figures::figure(number) else { return };
         self.view.figure = number;
+        let Some(figure) = figures::figure(number) else { return };
         if let Some(scenario) = figure.scenario() {
             self.view.map = figure.resonance().map_or(self.view.map, MapWindow::about);
             self.show(scenario);

@@ -1,7 +1,9 @@
 //! Computing what the view asks for, a slice a frame, newest question first.
 
 use super::clock::milliseconds;
+use super::comparison::Comparison;
 use super::curves::Curves;
+use super::figures::Figure;
 use super::map::{Boundaries, Structure};
 use crate::jobs::{Run, RunJob};
 use crate::scenario::Scenario;
@@ -59,6 +61,8 @@ pub(super) struct Session {
     pub shown: Option<Shown>,
     /// Boundaries of the structure in view.
     pub boundaries: Option<Boundaries>,
+    /// What the Paper tab computes beside the run in view.
+    pub comparison: Comparison,
     /// Curves kept for comparison.
     pub pinned: Option<Box<Shown>>,
     /// Frames between a question and its answer, the last ones, for the page's own statistics.
@@ -110,6 +114,19 @@ impl Session {
                 Err(error) => self.fail(work.generation, error.to_string()),
             }
         }
+    }
+
+    /// Computes what `figure` compares the run in view with, once that is done; whether there is more to do.
+    pub(super) fn compare(&mut self, figure: Option<&Figure>, scenario: &Scenario) -> bool {
+        let Some(figure) = figure else { return false };
+        self.comparison.follow(figure, scenario);
+        let start = milliseconds();
+        while self.status() == Status::Done && milliseconds() - start < BUDGET_MS {
+            if !self.comparison.advance(SLICE) {
+                return false;
+            }
+        }
+        self.status() == Status::Done
     }
 
     /// The run to go on with: the one under way unless it is overdue, else the question that waits.

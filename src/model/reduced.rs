@@ -23,7 +23,7 @@ pub struct ReducedSystem {
 }
 
 impl ReducedSystem {
-    /// Eqs. (27), (32), (33): the system of `modes` modes under a force law.
+    /// Eqs. (27), (32), (33), section 2.4: the system of `modes` modes under a force law.
     ///
     /// # Errors
     /// [`ModelError`] when there is no stable equilibrium, or the number of modes or degree is not available.
@@ -105,8 +105,8 @@ impl ReducedSystem {
         (current - self.parameters.kappa * state[2 * n]) / self.parameters.c
     }
 
-    /// Eqs. (32), (34), (60): the time derivative of `state` under excitation phase `omega t` with sine
-    /// `sin_phase` and a rest force `rest` = R(s). Both slices have length 2N + 1.
+    /// Eqs. (32), (34), (60), sections 2.4-3.3: the time derivative of `state` under excitation phase `omega t`
+    /// with sine `sin_phase` and a rest force `rest` = R(s). Both slices have length 2N + 1.
     #[doc(alias = "eq-32")]
     #[doc(alias = "eq-34")]
     #[doc(alias = "eq-60")]

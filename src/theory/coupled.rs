@@ -95,7 +95,8 @@ impl CoupledModes {
     /// beta). `i` and `j` count [`Self::modes`] from 0 and may be equal (a subharmonic).
     ///
     /// `None` when there is no such mode, where no beta is unstable (without quadratic nonlinearity, or where the
-    /// forced motion leaves the tip at rest), and at an undamped eigenfrequency.
+    /// forced motion leaves the tip at rest), and at an undamped eigenfrequency. Where nothing dissipates it is the
+    /// boundary of the undamped system, which is narrower than the limit of little damping.
     pub fn pair_boundary(&self, i: usize, j: usize, omega: f64) -> Option<f64> {
         let pair = self.pair(i, j, omega)?;
         pair.marginal_square().map(f64::sqrt)
@@ -134,7 +135,7 @@ impl CoupledModes {
     }
 }
 
-/// Decay, frequency and residue of the mode at an eigenvalue known nearly to rounding.
+/// Decay, frequency and residue of the mode at an eigenvalue known to rounding.
 fn coupled_mode(stiffness: &DynamicStiffness, eigenvalue: Complex<f64>) -> Option<CoupledMode> {
     let near = eigenvalue * Complex::new(1.0, ITERATION_OFFSET);
     let solver = stiffness.matrix(near).lu();
@@ -144,12 +145,9 @@ fn coupled_mode(stiffness: &DynamicStiffness, eigenvalue: Complex<f64>) -> Optio
     for _ in 0..2 {
         shape = solver.solve(&(&slope * shape))?.normalize();
     }
-    // M is symmetric, so its left null vector is the right one, which gives one Newton step for the eigenvalue,
-    // relative to its own size, and the residue of 1^T M^-1 1.
-    let modal_slope = shape.dot(&(&slope * &shape));
-    let eigenvalue = eigenvalue - shape.dot(&(stiffness.matrix(eigenvalue) * &shape)) / modal_slope;
+    // M is symmetric, so its left null vector is the right one and the residue of 1^T M^-1 1 is:
     let tip = shape.sum();
-    let residue = tip * tip / modal_slope;
+    let residue = tip * tip / shape.dot(&(&slope * &shape));
     let decay = if -eigenvalue.re <= UNDAMPED * eigenvalue.im { 0.0 } else { -eigenvalue.re };
     let finite = residue.re.is_finite() && residue.im.is_finite();
     finite.then_some(CoupledMode { decay, frequency: eigenvalue.im, residue })

@@ -56,6 +56,12 @@ impl DynamicStiffness {
         self.assemble(electrical, viscous, |omega| s * 2.0 + self.alpha * omega * omega)
     }
 
+    /// p'(s)/p(s) of the characteristic polynomial p = (kappa + c s) det M. `None` exactly at a root.
+    pub fn logarithmic_slope(&self, s: Complex<f64>) -> Option<Complex<f64>> {
+        let relative = self.matrix(s).lu().solve(&self.derivative(s))?;
+        Some(relative.trace() + Complex::from(self.c) / (s * self.c + self.kappa))
+    }
+
     fn assemble(
         &self,
         electrical: Complex<f64>,

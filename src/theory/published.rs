@@ -118,6 +118,9 @@ impl Published {
     ///
     /// `None` where no beta is unstable: without quadratic nonlinearity, or where the modes cancel at the tip; and
     /// when omega is a natural frequency, where the theory has no answer.
+    ///
+    /// At alpha = 0 this is the limit of vanishing damping, as the paper draws it. With no damping at all the sum
+    /// resonance grows only nearer to its centre, as [`Self::growth_rate`] says: unequal damping destabilises.
     #[doc(alias = "eq-57")]
     pub fn boundary(&self, resonance: Resonance, omega: f64) -> Option<f64> {
         let (i, j) = resonance.pair();

@@ -147,10 +147,9 @@ fn says_what_a_frame_costs() {
     sleep(Duration::from_secs(2));
     let path: Vec<_> =
         (0..=200).map(|index| slider.at(0.02 + 0.96 * f64::from(index) / 200.0, 0.5)).collect();
-    let began = page.frames()["count"].as_u64().unwrap_or_default();
+    let before = page.frames();
     page.drag(&path, Duration::from_millis(8));
     let frames = page.frames();
-    let drawn = (frames["count"].as_u64().unwrap_or_default() - began) as usize;
     for (key, what) in [("cpu_ms", "logic and layout"), ("total_ms", "with tessellation and paint")] {
         let mut times: Vec<f64> =
             frames[key].as_array().into_iter().flatten().filter_map(Value::as_f64).collect();

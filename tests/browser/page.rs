@@ -7,13 +7,14 @@ use std::{
     time::{Duration, Instant},
 };
 
+use fantoccini::actions::{InputSource as _, MOUSE_BUTTON_LEFT, MouseActions, PointerAction};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::{driver::Browser, server::Files};
 
 /// How long anything may take on a slow machine.
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The colours that the system asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -173,20 +174,21 @@ impl Page {
 
     /// Presses at the first point, moves through the others and lets go at the last.
     pub(crate) fn drag(&self, path: &[(f64, f64)], step: Duration) {
-        let event = |kind: &str, (x, y): (f64, f64), held: bool| {
+        let mut mouse = MouseActions::new("mouse".to_owned());
+        for (index, &(x, y)) in path.iter().enumerate() {
+            mouse = mouse.then(PointerAction::MoveTo { duration: Some(step), x, y });
+            if index == 0 {
+                mouse = mouse.then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
+            }
+        }
+        let mouse = mouse.then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
+        self.browser.run(self.browser.client().perform_actions(mouse));
+        |kind: &str, (x, y): (f64, f64), held: bool| {
             let parameters = json!({
                 "type": kind, "x": x, "y": y, "button": "left", "buttons": u8::from(held), "clickCount": 1,
             });
             self.browser.devtools("Input.dispatchMouseEvent", &parameters);
         };
-        let (Some(&first), Some(&last)) = (path.first(), path.last()) else { return };
-        event("mouseMoved", first, false);
-        event("mousePressed", first, true);
-        for &point in &path[1..] {
-            sleep(step);
-            event("mouseMoved", point, true);
-        }
-        event("mouseReleased", last, false);
     }
 
     pub(crate) fn png(&self) -> Vec<u8> {

@@ -30,14 +30,16 @@ pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], mut draw: impl FnMut(&mut Ui, &T
     let rows = cards.len().div_ceil(columns);
     let width = ((ui.available_width() - GAP * (columns - 1) as f32) / columns as f32).floor();
     let height = ((ui.available_height() - GAP * (rows - 1) as f32) / rows as f32).floor().max(LEAST_HEIGHT);
-    for row in cards.chunks(columns) {
+    for (index, row) in cards.chunks(columns).enumerate() {
+        if index > 0 {
+            ui.add_space(GAP - ui.spacing().item_spacing.y);
+        }
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing = vec2(GAP, 0.0);
             for card in row {
                 place(ui, width, height, |ui| draw(ui, card));
             }
         });
-        ui.add_space(GAP - ui.spacing().item_spacing.y);
     }
 }
 

@@ -3,11 +3,14 @@
 pub(super) mod beam;
 pub(super) mod controls;
 pub(super) mod explore;
+pub(super) mod figure_boundaries;
+pub(super) mod figure_panels;
 pub(super) mod paper;
 pub(super) mod phase_portrait;
 pub(super) mod poincare_map;
 pub(super) mod stability_map;
 pub(super) mod structure;
+pub(super) mod tables;
 pub(super) mod time_history;
 pub(super) mod top_bar;
 pub(super) mod verdict;

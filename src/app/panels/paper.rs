@@ -1,6 +1,83 @@
-//! stub
-use super::Context;
-/// stub
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut egui::Ui) {
-    let _ = (context, ui);
+//! The paper's figures, one click each, with what the paper saw and what is computed here.
+
+use egui::{RichText, Ui};
+
+use super::{Context, explore, figure_boundaries, figure_panels, tables};
+use crate::app::command::Command;
+use crate::app::figures::{self, FIGURES, Figure};
+use crate::app::widgets::{BadgeKind, badge, chips};
+use crate::app::{caption, fonts, theme};
+
+/// The number under which the tables are chosen.
+pub(in crate::app) const TABLES: u8 = 1;
+
+/// Draws the tab.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    choose(context, ui);
+    ui.add_space(8.0);
+    let Some(figure) = figures::figure(context.view.figure) else {
+        tables::show(context, ui);
+        return;
+    };
+    describe(context, ui, figure);
+    ui.add_space(10.0);
+    match figure.boundaries() {
+        Some(boundaries) => figure_boundaries::show(context, ui, &boundaries),
+        None => {
+            let panels = figure_panels::panels(figure);
+            explore::grid(ui, panels, |ui, panel| figure_panels::show(context, ui, figure, *panel));
+        }
+    }
+}
+
+fn choose(context: &mut Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let labels: Vec<String> = FIGURES.iter().map(|figure| figure.number.to_string()).collect();
+    let mut choices: Vec<(u8, &str)> =
+        FIGURES.iter().zip(&labels).map(|(figure, label)| (figure.number, label.as_str())).collect();
+    choices.push((TABLES, "Tables"));
+    let mut number = context.view.figure;
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("Figure").color(tokens.text_weak));
+        if chips(ui, "Figure", &mut number, &choices) {
+            context.commands.push(Command::LoadFigure(number));
+        }
+    });
+}
+
+/// Title, the paper's words, and ours.
+fn describe(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure) {
+    let tokens = theme::tokens(ui);
+    let frame = egui::Frame::new()
+        .fill(tokens.card)
+        .corner_radius(theme::radius::CARD)
+        .inner_margin(egui::Margin::symmetric(16, 11));
+    frame.show(ui, |ui| {
+        ui.set_min_width(ui.available_width());
+        ui.horizontal_wrapped(|ui| {
+            let title = format!("Figure {}  ·  {}", figure.number, figure.title);
+            ui.label(
+                RichText::new(title).font(fonts::semibold(theme::size::TITLE)).color(tokens.text_strong),
+            );
+            let own = figure.scenario();
+            if own.as_ref() != Some(&context.view.scenario) {
+                badge(ui, BadgeKind::Warning, "numbers changed");
+                if ui.button("Load the figure's").clicked() {
+                    context.commands.push(Command::LoadFigure(figure.number));
+                }
+            }
+        });
+        ui.add_space(2.0);
+        paragraph(ui, "The paper: ", figure.paper);
+        paragraph(ui, "This model: ", &caption::caption(context.session, figure));
+    });
+}
+
+fn paragraph(ui: &mut Ui, lead: &str, text: &str) {
+    let tokens = theme::tokens(ui);
+    let mut job = egui::text::LayoutJob::default();
+    let format = |colour, font| egui::TextFormat { font_id: font, color: colour, ..Default::default() };
+    job.append(lead, 0.0, format(tokens.text_weak, fonts::semibold(theme::size::BODY)));
+    job.append(text, 0.0, format(tokens.text, fonts::regular(theme::size::BODY)));
+    ui.add(egui::Label::new(job).wrap());
 }

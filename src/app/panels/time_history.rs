@@ -27,7 +27,8 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         let Some(shown) = context.shown() else { return };
         let area = ui.available_rect_before_wrap();
         let inset = area.height() >= INSET_FROM && shown.run.outcome() == Outcome::Completed;
-        whole(context, ui, shown, if inset { 1.0 + 1.25 * f64::from(INSET.y) } else { 1.05 });
+        let taken = if inset { f64::from(INSET.y) + 0.09 } else { 0.05 };
+        whole(context, ui, shown, taken);
         if inset {
             let size = area.size() * INSET;
             let corner = egui::pos2(area.right() - size.x - 4.0, area.top() + 2.0);
@@ -36,8 +37,8 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     });
 }
 
-/// The whole run; `headroom` keeps the top of the plot free for the close view.
-fn whole(context: &Context<'_>, ui: &mut Ui, shown: &Shown, headroom: f64) {
+/// The whole run; the share `taken` of the plot's height is kept free at the top for the close view.
+fn whole(context: &Context<'_>, ui: &mut Ui, shown: &Shown, taken: f64) {
     let (x, y) = (Axis::new("time", "t"), Axis::new("voltage", "v").unit("V"));
     let run = &shown.run;
     let [times, low, high] = &shown.curves.envelope;
@@ -55,7 +56,7 @@ fn whole(context: &Context<'_>, ui: &mut Ui, shown: &Shown, headroom: f64) {
         .include_x(0.0)
         .include_x(end)
         .include_y(1.05 * bottom)
-        .include_y(top + (headroom - 1.0) * (top - bottom))
+        .include_y(top + taken / (1.0 - taken) * (top - bottom))
         .show(ui, |plot| {
             if let Some(pinned) = &context.session.pinned {
                 let [times, low, high] = &pinned.curves.envelope;

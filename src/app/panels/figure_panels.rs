@@ -1,0 +1,118 @@
+//! Panels (a) to (d) of a response figure.
+
+use egui::Ui;
+use egui_plot::PlotPoint;
+
+use super::{Context, phase_portrait};
+use crate::app::figures::Figure;
+use crate::app::session::Shown;
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Card, Series};
+use crate::theory::SteadyState;
+
+/// Points of a drawn history.
+const POINTS: usize = 2400;
+/// Theory dots on a period in the terminal interval.
+const DOTS_PER_PERIOD: f64 = 15.0;
+
+/// The panels, as the paper letters them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Letter {
+    InitialHistory,
+    TerminalHistory,
+    PhaseDiagram,
+    PoincareMap,
+}
+
+/// The panels of a figure: an escape has no terminal interval and no Poincare map.
+pub(super) fn panels(figure: &Figure) -> &'static [Letter] {
+    use Letter::{InitialHistory, PhaseDiagram, PoincareMap, TerminalHistory};
+    if figure.number == 12 {
+        &[InitialHistory, PhaseDiagram]
+    } else {
+        &[InitialHistory, TerminalHistory, PhaseDiagram, PoincareMap]
+    }
+}
+
+/// Draws one panel as a card.
+pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure, letter: Letter) {
+    let title = match letter {
+        Letter::InitialHistory => "(a)  Initial history",
+        Letter::TerminalHistory if figure.number == 4 => "(b)  Long-term response",
+        Letter::TerminalHistory => "(b)  Steady-state response",
+        Letter::PhaseDiagram if figure.number == 12 => "(b)  Phase diagram",
+        Letter::PhaseDiagram => "(c)  Phase diagram",
+        Letter::PoincareMap => "(d)  Poincaré map",
+    };
+    let Some((initial_until, window)) = figure.windows() else { return };
+    let with_theory = letter != Letter::InitialHistory && figure.number != 12;
+    let hint = if with_theory { "dots: first-order theory" } else { "" };
+    Card::new(title).hint(hint).show(ui, |ui| {
+        if context.is_stale() {
+            ui.multiply_opacity(0.55);
+        }
+        let Some(shown) = context.shown() else { return };
+        match letter {
+            Letter::InitialHistory => history(ui, figure, shown, [0.0, initial_until], false),
+            Letter::TerminalHistory => history(ui, figure, shown, window, true),
+            Letter::PhaseDiagram => phase(ui, figure, shown),
+            Letter::PoincareMap => strobe(ui, figure, shown),
+        }
+    });
+}
+
+fn history(ui: &mut Ui, figure: &Figure, shown: &Shown, [from, to]: [f64; 2], theory: bool) {
+    let run = &shown.run;
+    let to = to.min(run.trajectory.end_time());
+    let voltage = run.system.dimension() - 1;
+    let mut curve = Vec::with_capacity(POINTS);
+    if from < to {
+        run.trajectory
+            .sample(from, to, POINTS, |time, state| curve.push(PlotPoint::new(time, state[voltage])));
+    }
+    let spacing = run.system.parameters.period() / DOTS_PER_PERIOD;
+    let dots: Vec<PlotPoint> = match SteadyState::new(&run.system) {
+        Ok(steady) if theory => (0..=((to - from) / spacing).max(0.0) as usize)
+            .map(|i| from + spacing * i as f64)
+            .map(|time| PlotPoint::new(time, steady.voltage.value(time)))
+            .collect(),
+        _ => Vec::new(),
+    };
+    let (x, y) = (Axis::new("time", "t"), Axis::new("voltage", "v").unit("V"));
+    plot_style::plot(ui, ("figure history", figure.number, theory), &x, &y).allow_scroll(false).show(
+        ui,
+        |plot| {
+            plot_style::series(plot, Series::Numeric, "computed", &curve);
+            plot_style::points(plot, Series::Theory, "first-order theory", &dots);
+        },
+    );
+}
+
+fn phase(ui: &mut Ui, figure: &Figure, shown: &Shown) {
+    let (x, y) = phase_portrait::axes();
+    let curves = &shown.curves;
+    plot_style::plot(ui, ("figure phase", figure.number), &x, &y).allow_scroll(false).show(ui, |plot| {
+        plot_style::series(plot, Series::Numeric, "computed", &curves.phase);
+        if figure.number != 12 {
+            plot_style::points(plot, Series::Theory, "first-order theory", &curves.theory_phase);
+        }
+    });
+}
+
+fn strobe(ui: &mut Ui, figure: &Figure, shown: &Shown) {
+    let (x, y) = phase_portrait::axes();
+    let curves = &shown.curves;
+    let [width, height] = curves.extent;
+    plot_style::plot(ui, ("figure map", figure.number), &x, &y)
+        .allow_scroll(false)
+        .include_x(-1.05 * width)
+        .include_x(1.05 * width)
+        .include_y(-1.05 * height)
+        .include_y(1.05 * height)
+        .show(ui, |plot| {
+            plot_style::points(plot, Series::Poincare, "computed", &curves.strobe);
+            if let Some(point) = &curves.theory_strobe {
+                plot_style::points(plot, Series::Theory, "first-order theory", std::slice::from_ref(point));
+            }
+        });
+}
