@@ -14,7 +14,9 @@ newest="$(find tests/browser -name '*.rs' -newer "$tool" -print -quit 2>/dev/nul
 if [ ! -x "$tool" ] || [ -n "$newest" ]; then
   built="$(cargo test --quiet --test browser --no-run --message-format=json |
     sed -n 's/.*"name":"browser".*"executable":"\([^"]*\)".*/\1/p' | tail -n 1)"
-  cp "$built" "$tool"
+  # Another run may still be using the old one.
+  cp "$built" "$tool.new"
+  mv "$tool.new" "$tool"
 fi
 
 dist="${DIST:-}"

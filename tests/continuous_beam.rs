@@ -13,8 +13,9 @@ fn system(set: ParameterSet, modes: usize) -> Result<ReducedSystem, Box<dyn std:
 const I: Complex<f64> = Complex::new(0.0, 1.0);
 
 /// Tip displacement and voltage per unit of beta of the continuous beam, without truncation: the closed form
-/// z = a cos px + b sin px + c cosh px + d sinh px - beta under the boundary conditions of Eq. (15), where the
-/// piezoelectric moment -theta v acts at the tip and a Kelvin-Voigt beam has the stiffness 1 + i alpha omega.
+/// z = a cos px + b sin px + c cosh px + d sinh px - beta under the boundary conditions of Eq. (15), where
+/// the piezoelectric moment -theta v acts at the tip and a Kelvin-Voigt beam has the stiffness 1 + i alpha
+/// omega.
 fn continuous_beam(system: &ReducedSystem) -> Option<(Complex<f64>, Complex<f64>)> {
     let p = &system.parameters;
     let omega = Complex::from(p.omega);
@@ -71,9 +72,9 @@ fn with_coupling_the_voltage_converges_to_that_of_the_continuous_beam() -> TestR
         let errors = |modes| -> Result<(f64, f64), Box<dyn std::error::Error>> {
             let truncated = system(set, modes)?;
             let (_, voltage) = continuous_beam(&truncated).ok_or("singular")?;
-            // A tip moment bends all modes, so the truncation converges only like 1/N. The missing modes follow the
-            // moment statically and act as a capacitance: what they lack to the slope 1 - c_1/4 / (1 + c_1/3) that
-            // a unit moment gives the tip.
+            // A tip moment bends all modes, so the truncation converges only like 1/N. The missing modes
+            // follow the moment statically and act as a capacitance: what they lack to the slope
+            // 1 - (c_1/4) / (1 + c_1/3) that a unit moment gives the tip.
             let slope = 1.0 - 0.25 * truncated.c1 / (1.0 + truncated.c1 / 3.0);
             let kept: f64 =
                 truncated.modes.iter().map(|mode| (mode.tip_slope / mode.omega).powi(2) / mode.eta2).sum();

@@ -1,5 +1,5 @@
-//! docs/equations.md against the source: every equation has a row, every function and test named there exists, and
-//! every alias `eq-n` in the source stands in the row of its equation.
+//! docs/equations.md against the source: every equation has a row, every function and test named there
+//! exists, and every alias `eq-n` in the source stands in the row of its equation.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
@@ -7,8 +7,8 @@ use std::path::Path;
 
 type TestResult = Result<(), Box<dyn Error>>;
 
-/// What the source holds: paths of its items and tests, and for each equation number the functions that carry its
-/// alias with their documentation.
+/// What the source holds: paths of its items and tests, and for each equation number the functions that carry
+/// its alias with their documentation.
 #[derive(Default)]
 struct Source {
     items: BTreeSet<String>,
@@ -48,8 +48,8 @@ impl Source {
         Ok(())
     }
 
-    /// Collects the items of one formatted file: a block that starts in the first column is an `impl`, a trait or a
-    /// module of tests, and ends with a brace there.
+    /// Collects the items of one formatted file: a block that starts in the first column is an `impl`, a
+    /// trait or a module of tests, and ends with a brace there.
     fn read_text(&mut self, text: &str, module: &str) {
         self.items.insert(module.to_owned());
         let (mut block, mut documentation, mut numbers, mut is_test) =

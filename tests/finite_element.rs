@@ -1,5 +1,5 @@
-//! The modes against a finite-element beam: Hermite cubics, tip mass eta, tip spring c_1, nothing shared with the
-//! characteristic equation.
+//! The modes against a finite-element beam: Hermite cubics, tip mass eta, tip spring c_1, nothing shared with
+//! the characteristic equation.
 
 use harvester_lab::model::{ModeSet, ModelError};
 use nalgebra::{DMatrix, DVector, Matrix4, SymmetricEigen, Vector4};

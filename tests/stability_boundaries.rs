@@ -1,4 +1,4 @@
-//! The stability boundaries against numbers computed apart from this project's formulas, and their properties.
+//! The stability boundaries against numbers computed apart from the crate, and their properties.
 
 #![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
 
@@ -21,9 +21,9 @@ fn close(value: f64, reference: f64, tolerance: f64) -> bool {
     (value - reference).abs() <= tolerance * reference.abs()
 }
 
-/// alpha, omega, resonance, coupled-mode beta of this theory's formulas evaluated in 40-digit arithmetic with a
-/// general eigenvalue routine and the phase condition solved for the common frequency, Floquet beta of the forced
-/// orbit of the quadratic two-mode system computed by an independent program.
+/// alpha, omega, resonance, coupled-mode beta of this theory's formulas evaluated in 40-digit arithmetic with
+/// a general eigenvalue routine and the phase condition solved for the common frequency, Floquet beta of the
+/// forced orbit of the quadratic two-mode system computed by an independent program.
 const COUPLED: [(f64, f64, Resonance, f64, f64); 8] = [
     (1e-4, 8.1569, Resonance::First, 0.000421323711331, 0.000421),
     (1e-4, 8.0969, Resonance::First, 0.00165727081341, 0.001628),
@@ -135,7 +135,7 @@ fn the_published_growth_rates_are_those_of_the_slow_equations() -> TestResult {
         let gain = pair.map(|mode| g / (2.0 * mode.omega * mode.eta2));
         let reference = growth_by_integration(damping, gain, detuning);
         let growth = theory.growth_rate(resonance, beta, omega).unwrap_or(f64::NAN);
-        // The remaining solution has died out to e^-20 at least; the average over time leaves a beat of that size.
+        // Halfway through the run the slower solution has died out.
         assert!((growth - reference).abs() < 1e-6, "{resonance:?} {detuning}: {growth} {reference}");
     }
     Ok(())
@@ -143,7 +143,8 @@ fn the_published_growth_rates_are_those_of_the_slow_equations() -> TestResult {
 
 #[test]
 fn the_eigenvalues_of_beam_and_circuit() -> TestResult {
-    // Eigenvalues of the unscaled matrix A in 40-digit arithmetic, alpha = 1e-4: first the circuit's, then one a mode.
+    // Eigenvalues of the unscaled matrix A in 40-digit arithmetic, alpha = 1e-4: first the circuit's, then
+    // one a mode.
     let two = [
         (-0.978057761744196, 0.0),
         (-0.00780662006538647, 4.07827174622026),
@@ -279,7 +280,8 @@ proptest! {
         let theory = Published::new(&system).map_err(|error| TestCaseError::fail(error.to_string()))?;
         let omega = theory.frequency(resonance) + detuning;
         if let Some(beta) = theory.boundary(resonance, omega) {
-            let growth = |factor: f64| theory.growth_rate(resonance, factor * beta, omega).unwrap_or(f64::NAN);
+            let growth =
+                |factor: f64| theory.growth_rate(resonance, factor * beta, omega).unwrap_or(f64::NAN);
             let scale = -growth(0.0) + detuning.abs();
             prop_assert!(growth(1.0).abs() < 1e-11 * scale, "{} of {scale}", growth(1.0));
             prop_assert!(growth(0.999) < 0.0 && growth(1.001) > 0.0);
@@ -298,7 +300,8 @@ proptest! {
         let theory = CoupledModes::new(&system).map_err(|error| TestCaseError::fail(error.to_string()))?;
         let omega = theory.frequency(resonance) + detuning;
         if let Some(beta) = theory.boundary(resonance, omega) {
-            let growth = |factor: f64| theory.growth_rate(resonance, factor * beta, omega).unwrap_or(f64::NAN);
+            let growth =
+                |factor: f64| theory.growth_rate(resonance, factor * beta, omega).unwrap_or(f64::NAN);
             prop_assert!(growth(0.99) < 0.0 && growth(1.01) > 0.0, "{} {}", growth(0.99), growth(1.01));
         }
     }

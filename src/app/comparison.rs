@@ -10,9 +10,6 @@ use crate::model::{ForceLaw, ParameterSet};
 use crate::scenario::{ModelChoice, Scenario};
 use crate::theory::{CoupledModes, Published};
 
-/// Half width of the boundary figures (dimensionless frequency).
-pub(super) const FIGURE_HALF_WIDTH: f64 = 0.9;
-
 /// The run in view repeated with the exact magnet force.
 #[derive(Debug)]
 pub(super) enum ExactRun {
@@ -68,7 +65,7 @@ impl Comparison {
                 let system = scenario.model.system(ParameterSet { alpha, ..structure }).ok()?;
                 let published = Published::new(&system).ok()?;
                 let coupled = CoupledModes::new(&system).ok();
-                Some((alpha, Tongue::new(figure.resonance, FIGURE_HALF_WIDTH, &published, coupled.as_ref())))
+                Some((alpha, Tongue::new(figure.resonance, figure.half_width, &published, coupled.as_ref())))
             })
             .collect();
     }

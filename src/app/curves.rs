@@ -20,6 +20,8 @@ const THEORY_DOTS: usize = 48;
 const CLOSE_DOTS: usize = 14;
 /// Samples of a run that ended early.
 const EARLY_SAMPLES: usize = 3000;
+/// Tip displacement, in beam lengths, up to which an escape is drawn.
+const SIGHT: f64 = 0.5;
 /// Points along the beam.
 pub(super) const BEAM_POINTS: usize = 33;
 
@@ -47,6 +49,8 @@ pub(super) struct Curves {
     pub shapes: Vec<Vec<f64>>,
     /// Beam at the lowest and at the highest tip position of the drawn motion.
     pub extremes: [Vec<[f64; 2]>; 2],
+    /// Time at which the drawn motion ends.
+    pub end: f64,
     /// Stretch of time that the moving beam repeats.
     pub repeat: [f64; 2],
 }
@@ -56,14 +60,14 @@ impl Curves {
     pub(super) fn new(run: &Run) -> Self {
         let system = &run.system;
         let period = system.parameters.period();
-        let end = run.trajectory.end_time();
         let early = run.outcome() != Outcome::Completed;
+        let end = if early { last_time_in_sight(run) } else { run.trajectory.end_time() };
         let repeats = run.recurrence.and_then(|found| found.period);
         let shown = repeats.map_or(APERIODIC_PERIODS, |periods| 2.0 * periods as f64) * period;
         let from = if early { 0.0 } else { (end - shown).max(0.0) };
         let count =
             if early { EARLY_SAMPLES } else { ((end - from) / period * SAMPLES_PER_PERIOD as f64) as usize };
-        let mut curves = Self { shapes: shapes(run), ..Self::default() };
+        let mut curves = Self { shapes: shapes(run), end, ..Self::default() };
         let voltage = system.dimension() - 1;
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         run.trajectory.sample(from, end, count.max(2), |_, state| {
@@ -120,8 +124,9 @@ impl Curves {
     fn take_envelope(&mut self, run: &Run) {
         let envelope = &run.envelope;
         for (i, (low, high)) in envelope.slices.iter().enumerate() {
-            if low.is_finite() {
-                self.envelope[0].push((i as f64 + 0.5) * envelope.width);
+            let time = (i as f64 + 0.5) * envelope.width;
+            if low.is_finite() && time <= self.end {
+                self.envelope[0].push(time);
                 self.envelope[1].push(*low);
                 self.envelope[2].push(*high);
             }
@@ -138,12 +143,26 @@ impl Curves {
             (0..count).map(move |i| from + period * i as f64 / dots as f64)
         };
         self.theory_phase = times(0.0, THEORY_DOTS, THEORY_DOTS).map(place).collect();
-        let start = ((end / period).floor() - CLOSE_PERIODS).max(0.0) * period;
+        let start = (end - CLOSE_PERIODS * period).max(0.0);
         let dots = CLOSE_DOTS * CLOSE_PERIODS as usize;
         self.theory_close =
             times(start, dots, CLOSE_DOTS).map(|time| PlotPoint::new(time, voltage.value(time))).collect();
         self.theory_strobe = Some(place(0.0));
     }
+}
+
+/// When a run that ended early last had its tip within a beam's length of rest; beyond, nothing else would be seen.
+fn last_time_in_sight(run: &Run) -> f64 {
+    let end = run.trajectory.end_time();
+    let mut last = end;
+    let mut lost = false;
+    run.trajectory.sample(0.0, end, EARLY_SAMPLES, |time, state| {
+        lost |= run.system.tip_displacement(state).abs() > SIGHT;
+        if !lost {
+            last = time;
+        }
+    });
+    last
 }
 
 /// Mode shapes along the beam, one row a mode.

@@ -44,8 +44,9 @@ pub(super) struct Figure {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BoundaryFigure {
     pub resonance: Resonance,
-    /// Upper end of the excitation axis, at which the curves are seen.
+    /// Upper end of the excitation axis and half width of the frequency axis, at which the curves are seen.
     pub ceiling: f64,
+    pub half_width: f64,
     pub dampings: [f64; 4],
     pub point: &'static str,
     pub omega: f64,
@@ -230,12 +231,12 @@ impl Figure {
     pub(super) fn boundaries(&self) -> Option<BoundaryFigure> {
         match self.kind {
             Kind::Boundaries { resonance, dampings, point, omega } => {
-                let ceiling = match resonance {
-                    Resonance::Sum => 0.03,
-                    Resonance::First => 0.02,
-                    Resonance::Second => 0.06,
+                let (ceiling, half_width) = match resonance {
+                    Resonance::Sum => (0.03, 0.9),
+                    Resonance::First => (0.02, 0.8),
+                    Resonance::Second => (0.06, 0.4),
                 };
-                Some(BoundaryFigure { resonance, ceiling, dampings, point, omega })
+                Some(BoundaryFigure { resonance, ceiling, half_width, dampings, point, omega })
             }
             Kind::Response { .. } => None,
         }

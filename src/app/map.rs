@@ -9,8 +9,10 @@ use crate::theory::{CoupledModes, Published, Resonance};
 
 /// Half width of a window about one resonance (dimensionless frequency).
 pub(super) const HALF_WIDTH: f64 = 0.6;
+/// How far a boundary is followed to either side of its resonance: as wide as the widest map shows it.
+const REACH: f64 = 2.4;
 /// Points of a boundary.
-const POINTS: usize = 161;
+const POINTS: usize = 241;
 
 /// Everything the boundaries depend on: the device without its excitation.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,9 +63,7 @@ impl Boundaries {
         let published = Published::new(system).ok();
         let coupled = CoupledModes::new(system).ok();
         let tongues = published.as_ref().map_or_else(Vec::new, |published| {
-            Resonance::ALL
-                .map(|resonance| Tongue::new(resonance, HALF_WIDTH, published, coupled.as_ref()))
-                .into()
+            Resonance::ALL.map(|resonance| Tongue::new(resonance, REACH, published, coupled.as_ref())).into()
         });
         let frequencies = system.modes.iter().map(|mode| mode.omega).collect();
         Self { structure, frequencies, tongues, published, coupled }
@@ -118,8 +118,11 @@ impl Tongue {
         coupled: Option<&CoupledModes>,
     ) -> Self {
         let centre = published.frequency(resonance);
-        let frequencies =
-            || (0..POINTS).map(|i| centre + HALF_WIDTH * (2.0 * i as f64 / (POINTS - 1) as f64 - 1.0));
+        // Denser towards the resonance, where the boundary bends.
+        let frequencies = || {
+            let across = (0..POINTS).map(|i| 2.0 * i as f64 / (POINTS - 1) as f64 - 1.0);
+            across.map(|u| centre + half_width * (0.3 * u + 0.7 * u * u * u))
+        };
         let place = |omega: f64, beta: Option<f64>| PlotPoint::new(omega, beta.unwrap_or(f64::NAN));
         Self {
             resonance,

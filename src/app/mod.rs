@@ -181,8 +181,9 @@ fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
         });
     }
     if ui.available_width() < STACKED {
-        egui::CentralPanel::default().frame(page.inner_margin(10)).show(ui, |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let page = page.inner_margin(Margin { left: 12, right: 0, top: 10, bottom: 10 });
+        egui::CentralPanel::default().frame(page).show(ui, |ui| {
+            scrolled(ui, |ui| {
                 panels::controls::main_controls(context, ui);
                 ui.add_space(8.0);
                 draw_tab(context, ui);
@@ -192,7 +193,8 @@ fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
         });
         return;
     }
-    let column = egui::Frame::new().fill(tokens.bar).inner_margin(Margin::symmetric(14, 10));
+    let column =
+        egui::Frame::new().fill(tokens.bar).inner_margin(Margin { left: 14, right: 0, top: 10, bottom: 10 });
     egui::Panel::left("controls")
         .frame(column)
         .show_separator_line(false)
@@ -203,8 +205,15 @@ fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
                 .auto_shrink(false)
                 .show(ui, |ui| panels::controls::show(context, ui));
         });
-    egui::CentralPanel::default().frame(page.inner_margin(10)).show(ui, |ui| {
-        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| draw_tab(context, ui));
+    let page = page.inner_margin(Margin { left: 10, right: 0, top: 10, bottom: 10 });
+    egui::CentralPanel::default().frame(page).show(ui, |ui| scrolled(ui, |ui| draw_tab(context, ui)));
+}
+
+/// Contents that scroll when they are too tall, with a margin at the right in which the scroll bar floats.
+fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let margin = Margin { right: 12, ..Margin::ZERO };
+        egui::Frame::new().inner_margin(margin).show(ui, contents);
     });
 }
 

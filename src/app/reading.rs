@@ -38,6 +38,9 @@ impl Reading {
         remarks.extend(settling(shown));
         remarks.extend(boundaries.and_then(|boundaries| theories(shown, boundaries)));
         remarks.extend(force_law(shown));
+        if let Outcome::Escaped { .. } = shown.run.outcome() {
+            remarks.push("the exact force law (under Model) has no such barrier".to_owned());
+        }
         Self { tone, headline, facts: facts(shown), remarks }
     }
 }
@@ -58,7 +61,14 @@ fn headline(shown: &Shown) -> (Tone, String) {
 }
 
 fn facts(shown: &Shown) -> Vec<String> {
-    let Some(summary) = &shown.run.summary else { return Vec::new() };
+    let summary = match (&shown.run.summary, shown.run.outcome()) {
+        (Some(summary), Outcome::Completed) => summary,
+        // Voltages of a tip that has flown off mean nothing.
+        (_, Outcome::Escaped { .. }) => {
+            return vec!["the tip left over the truncated force's barrier".to_owned()];
+        }
+        _ => return Vec::new(),
+    };
     let system = &shown.run.system;
     let gap = system.equilibrium.gap;
     let mut facts = vec![
@@ -68,10 +78,8 @@ fn facts(shown: &Shown) -> Vec<String> {
     if let Some(resistance) = Device::default().resistance_of(system.parameters.kappa) {
         facts.push(format!("{} µW", significant(1e6 * summary.v_rms.powi(2) / resistance, 3)));
     }
-    if shown.run.outcome() == Outcome::Completed {
-        let nearest = -100.0 * summary.tip_min / gap;
-        facts.push(format!("tip closes {} % of the gap", significant(nearest.max(0.0), 2)));
-    }
+    let nearest = -100.0 * summary.tip_min / gap;
+    facts.push(format!("tip closes {} % of the gap", significant(nearest.max(0.0), 2)));
     facts
 }
 

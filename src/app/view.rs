@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::ParameterSet;
+use super::figures::{self, Figure};
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
@@ -92,9 +92,8 @@ pub struct View {
 impl Default for View {
     /// Opens where there is something to see: the paper's period-doubled motion, Figure 9.
     fn default() -> Self {
-        let parameters = ParameterSet { alpha: 1e-4, beta: 1e-2, omega: 8.0969, ..ParameterSet::default() };
         Self {
-            scenario: Scenario { parameters, ..Scenario::default() },
+            scenario: figures::figure(9).and_then(Figure::scenario).unwrap_or_default(),
             tab: Tab::Explore,
             dark: None,
             projector: false,

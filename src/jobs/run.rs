@@ -84,8 +84,9 @@ impl RunJob {
         let t_end = scenario.t_end;
         let stage = system.dispatch(Start { system: &system, initial: &initial })?;
         let period = system.parameters.period();
-        // Whole periods, so that means are those of the motion.
-        let window = t_end - (WINDOW * t_end / period).ceil().min((t_end / period).floor()) * period;
+        // Whole pairs of periods, so that means are those of the motion, also when its period has doubled.
+        let pairs = (0.5 * WINDOW * t_end / period).ceil().min((0.5 * t_end / period).floor());
+        let window = t_end - 2.0 * pairs * period;
         let recorder = Recorder {
             trajectory: stage.recorder(),
             strobe: Vec::with_capacity((t_end / period) as usize + 2),

@@ -118,7 +118,8 @@ fn second_difference(x: f64, h: f64, p: u32) -> f64 {
     let centre = x + h;
     let ratio = h / centre;
     let power = |base: f64| base.powi(-(p as i32));
-    if ratio > 0.25 {
+    // Beyond contact, where the centre may be negative, the series need not converge.
+    if ratio.abs() > 0.25 {
         return power(x) + power(x + 2.0 * h) - 2.0 * power(centre);
     }
     let (mut term, mut sum) = (1.0, 0.0);

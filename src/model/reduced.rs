@@ -82,6 +82,8 @@ impl ReducedSystem {
         match self.law {
             ForceLaw::Quadratic => visitor.visit(Quadratic { c2: magnet.taylor_coefficient(rest.gap, 2) }),
             ForceLaw::Taylor(degree) => visitor.visit(Polynomial::new(&magnet, rest, degree)),
+            // Without magnets the tip may pass the place where they would touch, a pole of the exact law.
+            ForceLaw::Exact if magnet.c0 == 0.0 => visitor.visit(Quadratic { c2: 0.0 }),
             ForceLaw::Exact => visitor.visit(Exact::new(&magnet, rest)),
         }
     }

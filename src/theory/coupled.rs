@@ -1,14 +1,16 @@
 //! The stability boundaries on the modes of beam and circuit together.
 //!
-//! The paper treats the coupling theta as small and so drops the circuit from its first-order equations. Here the
-//! same argument is made with the eigenvalues lambda_i = -r_i + i O_i of the whole linear system. With the forced tip
-//! motion S beta sin(omega t) (S complex) in the quadratic force c_2 s^2, two modes near O_i + O_j = omega obey
+//! The paper treats the coupling theta as small and so drops the circuit from its first-order equations. Here
+//! the same argument is made with the eigenvalues lambda_i = -r_i + i O_i of the whole linear system. With
+//! the forced tip motion S beta sin(omega t) (S complex) in the quadratic force c_2 s^2, two modes with
+//! O_i + O_j near omega obey
 //!
 //! dy_i/dt = lambda_i y_i + beta k_ij e^(i omega t) conj(y_j), and the same with i and j exchanged,
 //!
-//! where k_ij conj(k_ji) = K_ij = c_2^2 |S|^2 rho_i conj(rho_j) and rho_i is the residue at lambda_i of the tip
-//! receptance (tip displacement per tip force). It holds for any number of modes and any theta; it needs light damping
-//! against the frequencies and a small forced motion: cubic terms, and the shift they cause, are left out.
+//! where k_ij conj(k_ji) = K_ij = c_2^2 |S|^2 rho_i conj(rho_j) and rho_i is the residue at lambda_i of the
+//! tip receptance (tip displacement per tip force). It holds for any number of modes and any theta; it needs
+//! light damping against the frequencies and a small forced motion: cubic terms, and the shift they cause,
+//! are left out.
 
 use nalgebra::{Complex, DVector};
 
@@ -49,8 +51,8 @@ impl CoupledModes {
     /// resonance could build up, though they still take part in the forced motion.
     ///
     /// # Errors
-    /// [`TheoryError::TooFewModes`] for a system of one mode, [`TheoryError::Overdamped`] when fewer than two are
-    /// left, and the errors of [`eigenvalues`].
+    /// [`TheoryError::TooFewModes`] for a system of one mode, [`TheoryError::Overdamped`] when fewer than two
+    /// are left, and the errors of [`eigenvalues`].
     pub fn new(system: &ReducedSystem) -> Result<Self, TheoryError> {
         if system.modes.len() < 2 {
             return Err(TheoryError::TooFewModes { found: system.modes.len() });
@@ -91,19 +93,19 @@ impl CoupledModes {
         self.pair_boundary(i, j, omega)
     }
 
-    /// The lowest unstable beta at `omega` near O_i + O_j (dimensionless; it may lie beyond the accepted range of
-    /// beta). `i` and `j` count [`Self::modes`] from 0 and may be equal (a subharmonic).
+    /// The lowest unstable beta at `omega` near O_i + O_j (dimensionless; it may lie beyond the accepted
+    /// range of beta). `i` and `j` count [`Self::modes`] from 0 and may be equal (a subharmonic).
     ///
-    /// `None` when there is no such mode, where no beta is unstable (without quadratic nonlinearity, or where the
-    /// forced motion leaves the tip at rest), and at an undamped eigenfrequency. Where nothing dissipates it is the
-    /// boundary of the undamped system, which is narrower than the limit of little damping.
+    /// `None` when there is no such mode, where no beta is unstable (without quadratic nonlinearity, or where
+    /// the forced motion leaves the tip at rest), and at an undamped eigenfrequency. Where nothing dissipates
+    /// it is the boundary of the undamped system, which is narrower than the limit of little damping.
     pub fn pair_boundary(&self, i: usize, j: usize, omega: f64) -> Option<f64> {
         let pair = self.pair(i, j, omega)?;
         pair.marginal_square().map(f64::sqrt)
     }
 
-    /// Growth rate of the resonant pair at `beta` and `omega` per unit of dimensionless time, negative for decay;
-    /// `None` at an undamped eigenfrequency.
+    /// Growth rate of the resonant pair at `beta` and `omega` per unit of dimensionless time, negative for
+    /// decay; `None` at an undamped eigenfrequency.
     pub fn growth_rate(&self, resonance: Resonance, beta: f64, omega: f64) -> Option<f64> {
         let (i, j) = resonance.pair();
         Some(self.pair(i, j, omega)?.growth_rate(beta))
@@ -124,12 +126,12 @@ impl CoupledModes {
         Some((self.c2 * self.stiffness.tip_response(omega)?).norm_sqr())
     }
 
-    /// The coupling K of modes `i` and `j` near the *difference* of their frequencies, per unit of beta squared:
-    /// c_2^2 |S|^2 rho_i rho_j, without the conjugate.
+    /// The coupling K of modes `i` and `j` near the *difference* of their frequencies, per unit of beta
+    /// squared: c_2^2 |S|^2 rho_i rho_j, without the conjugate.
     ///
-    /// A residue is nearly -i/(2 O eta_2), so this K is negative where that of the sum is positive, and a negative K
-    /// only shifts frequencies: there is no boundary. `None` when there is no such mode and at an undamped
-    /// eigenfrequency.
+    /// A residue is nearly -i/(2 O eta_2), so this K is negative where that of the sum is positive, and a
+    /// negative K only shifts frequencies: there is no boundary. `None` when there is no such mode and at an
+    /// undamped eigenfrequency.
     pub fn difference_coupling(&self, i: usize, j: usize, omega: f64) -> Option<Complex<f64>> {
         Some(self.gain(omega)? * self.modes.get(i)?.residue * self.modes.get(j)?.residue)
     }
@@ -153,8 +155,8 @@ fn coupled_mode(stiffness: &DynamicStiffness, eigenvalue: Complex<f64>) -> Optio
     finite.then_some(CoupledMode { decay, frequency: eigenvalue.im, residue })
 }
 
-/// Two coupled modes under a forced motion. The slow exponent rho of y_i obeys, at the frequency that both share,
-/// (rho + r_i)(rho + r_j - i sigma) = beta^2 K.
+/// Two coupled modes under a forced motion. The slow exponent rho of y_i obeys, at the frequency that both
+/// share, (rho + r_i)(rho + r_j - i sigma) = beta^2 K.
 struct Pair {
     /// (r_i + r_j)/2.
     mean_decay: f64,
@@ -167,8 +169,8 @@ struct Pair {
 }
 
 impl Pair {
-    /// The larger real part of rho = -R + i sigma/2 +- sqrt((D + i sigma/2)^2 + beta^2 K), with R the mean of the
-    /// decay rates and D half their difference.
+    /// The larger real part of rho = -R + i sigma/2 +- sqrt((D + i sigma/2)^2 + beta^2 K), with R the mean of
+    /// the decay rates and D half their difference.
     fn growth_rate(&self, beta: f64) -> f64 {
         let half = Complex::new(self.half_difference, 0.5 * self.detuning);
         (half * half + self.coupling * (beta * beta)).sqrt().re - self.mean_decay
@@ -176,8 +178,8 @@ impl Pair {
 
     /// beta^2 at which the growth rate vanishes.
     ///
-    /// A square root has the real part R when its square Z has (Im Z)^2 = 4 R^2 (R^2 - Re Z). That is a quadratic
-    /// p B^2 + 2 q B - n = 0 for B = beta^2 with p and n not negative: one positive root.
+    /// A square root has the real part R when its square Z has (Im Z)^2 = 4 R^2 (R^2 - Re Z). That is a
+    /// quadratic p B^2 + 2 q B - n = 0 for B = beta^2 with p and n not negative: one positive root.
     fn marginal_square(&self) -> Option<f64> {
         let (decay, difference) = (self.mean_decay, self.half_difference);
         let (a, b) = (self.coupling.re, self.coupling.im);

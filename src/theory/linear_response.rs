@@ -1,15 +1,17 @@
-//! The linear system (magnet rest force left out) with its circuit and damping, exactly: complex amplitudes of the
-//! steady state. It is the closed form for a harvester without magnet and the start of the coupled-mode theory.
+//! The linear system (magnet rest force left out) with its circuit and damping, exactly: complex amplitudes
+//! of the steady state. It is the closed form for a harvester without magnet and the start of the
+//! coupled-mode theory.
 
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::{Harmonic, TheoryError};
 use crate::model::ReducedSystem;
 
-/// The symmetric matrix M(s) with M(s) Q = F for modal displacements Q e^(s t) under modal forces F e^(s t), after
-/// the voltage has been eliminated with Eq. (31):
+/// The symmetric matrix M(s) with M(s) Q = F for modal displacements Q e^(s t) under modal forces F e^(s t),
+/// after the voltage has been eliminated with Eq. (31):
 ///
-/// M_kn = eta_2k (s^2 + alpha omega_k^2 s + omega_k^2) delta_kn - alpha c_1 s + s theta_k theta_n / (kappa + c s).
+/// M_kn = eta_2k (s^2 + alpha omega_k^2 s + omega_k^2) delta_kn - alpha c_1 s
+/// + s theta_k theta_n / (kappa + c s).
 ///
 /// It depends on the structure only, not on the excitation. N x N, dimensionless.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,7 +93,8 @@ impl DynamicStiffness {
         self.response(omega).map(|response| response.sum())
     }
 
-    /// Voltage that the modal displacements Q drive at s, Eq. (31): V = s (sum of theta_n Q_n) / (kappa + c s) [V].
+    /// Voltage [V] that the modal displacements Q drive at s by Eq. (31):
+    /// V = s (sum of theta_n Q_n) / (kappa + c s).
     fn voltage(&self, displacements: &DVector<Complex<f64>>, s: Complex<f64>) -> Complex<f64> {
         let charge: Complex<f64> = displacements.iter().zip(&self.theta).map(|(q, theta)| q * *theta).sum();
         s * charge / (s * self.c + self.kappa)

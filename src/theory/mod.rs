@@ -1,9 +1,11 @@
 //! Sections 3 and 4 of the paper: the forced motion to first order and where it loses its stability.
 //!
-//! * [`steady_state`] is the paper's forced motion (Eqs. 43, 45, 59, 71, 80); [`linear_response`] is the exact one of
+//! * [`steady_state`] is the paper's forced motion (Eqs. 43, 45, 59, 71, 80); [`linear_response`] is the
+//!   exact one of
 //!   the linear system, circuit and damping kept.
 //! * [`published`] holds the stability boundaries as printed (Eqs. 56, 57, 72, 81) with their growth rates.
-//! * [`coupled`] is the same argument carried out on the modes of beam and circuit together, whose eigenvalues come
+//! * [`coupled`] is the same argument carried out on the modes of beam and circuit together, whose
+//!   eigenvalues come
 //!   from [`spectrum`]: any number of modes, no smallness of the electromechanical coupling.
 
 pub mod coupled;

@@ -1,13 +1,17 @@
-//! The stability boundaries of sections 3 and 4 as the paper prints them: two modes, undamped forced motion, no
-//! electrical back-action.
+//! The stability boundaries of sections 3 and 4 as the paper prints them: two modes, undamped forced motion,
+//! no electrical back-action.
 //!
-//! Near each resonance the slow amplitudes obey, with G = c_2 (a_1 + a_2), m_k = omega_k^2 eta_2k - c_1 and the
-//! detuning sigma, dY_i/dt + mu_i Y_i = g_i conj(Y_j) e^(i sigma t), mu_k = alpha m_k / (2 eta_2k),
-//! g_k = G / (2 omega_k eta_2k); i = j for the subharmonics. m_k is the bending energy of the mode, hence positive.
+//! Near each resonance the slow amplitudes obey, with the detuning sigma,
 //!
-//! At the difference omega_2 - omega_1 the product g_i g_j changes its sign and there is no instability at this
-//! order. Where omega comes close to omega_1 or omega_2 themselves the formulas still return numbers, but the theory
-//! behind them does not hold: the amplitudes a_k are no longer small.
+//! dY_i/dt + mu_i Y_i = g_i conj(Y_j) e^(i sigma t), where
+//! mu_k = alpha m_k / (2 eta_2k), m_k = omega_k^2 eta_2k - c_1,
+//! g_k = G / (2 omega_k eta_2k), G = c_2 (a_1 + a_2);
+//!
+//! i = j for the subharmonics. m_k is the bending energy of the mode, hence positive.
+//!
+//! At the difference omega_2 - omega_1 the product g_i g_j changes its sign and there is no instability at
+//! this order. Where omega comes close to omega_1 or omega_2 themselves the formulas still return numbers,
+//! but the theory behind them does not hold: the amplitudes a_k are no longer small.
 
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
@@ -42,7 +46,8 @@ impl Resonance {
     }
 }
 
-/// The published theory of one structure. Excitations are arguments, so that a boundary costs a few operations.
+/// The published theory of one structure. Excitations are arguments, so that a boundary costs a few
+/// operations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Published {
     modes: [Mode; 2],
@@ -78,7 +83,8 @@ impl Published {
         self.modes[1].omega - self.modes[0].omega
     }
 
-    /// Eqs. (46), (61), (73), sections 3.2, 4.1, 4.3: detuning sigma of omega from the resonance (dimensionless).
+    /// Eqs. (46), (61), (73), sections 3.2, 4.1, 4.3: detuning sigma of omega from the resonance
+    /// (dimensionless).
     #[doc(alias = "eq-46")]
     #[doc(alias = "eq-61")]
     #[doc(alias = "eq-73")]
@@ -91,8 +97,8 @@ impl Published {
         Some(modal_amplitude(&self.modes[0], 1.0, omega)? + modal_amplitude(&self.modes[1], 1.0, omega)?)
     }
 
-    /// Eqs. (56), (72), (81), sections 3.2, 4.1, 4.3: the |sigma| up to which the forced motion is unstable, when
-    /// its amplitudes are those at `beta` and `omega` (dimensionless).
+    /// Eqs. (56), (72), (81), sections 3.2, 4.1, 4.3: the |sigma| up to which the forced motion is unstable,
+    /// when its amplitudes are those at `beta` and `omega` (dimensionless).
     ///
     /// `None` when it is stable at any detuning, or omega is a natural frequency.
     #[doc(alias = "eq-56")]
@@ -106,21 +112,22 @@ impl Published {
         (radicand >= 0.0).then(|| self.width(resonance) * radicand.sqrt())
     }
 
-    /// The factor before the root of Eq. (56), m_1/(2 eta_21) + m_2/(2 eta_22); for a subharmonic m_k/eta_2k, which
-    /// brings Eqs. (72), (81) to the same form.
+    /// The factor before the root of Eq. (56), m_1/(2 eta_21) + m_2/(2 eta_22); for a subharmonic m_k/eta_2k,
+    /// which brings Eqs. (72), (81) to the same form.
     fn width(&self, resonance: Resonance) -> f64 {
         let (i, j) = resonance.pair();
         0.5 * (self.bending[i] / self.modes[i].eta2 + self.bending[j] / self.modes[j].eta2)
     }
 
-    /// Eq. (57), section 3.2, and Eqs. (72), (81) solved for beta in the same way: the lowest unstable beta_0 at
-    /// `omega` (dimensionless; it may lie beyond the accepted range of beta).
+    /// Eq. (57), section 3.2, and Eqs. (72), (81) solved for beta in the same way: the lowest unstable beta_0
+    /// at `omega` (dimensionless; it may lie beyond the accepted range of beta).
     ///
-    /// `None` where no beta is unstable: without quadratic nonlinearity, or where the modes cancel at the tip; and
-    /// when omega is a natural frequency, where the theory has no answer.
+    /// `None` where no beta is unstable: without quadratic nonlinearity, or where the modes cancel at the
+    /// tip; and when omega is a natural frequency, where the theory has no answer.
     ///
-    /// At alpha = 0 this is the limit of vanishing damping, as the paper draws it. With no damping at all the sum
-    /// resonance grows only nearer to its centre, as [`Self::growth_rate`] says: unequal damping destabilises.
+    /// At alpha = 0 this is the limit of vanishing damping, as the paper draws it. With no damping at all the
+    /// sum resonance grows only nearer to its centre, as [`Self::growth_rate`] says: unequal damping
+    /// destabilises.
     #[doc(alias = "eq-57")]
     pub fn boundary(&self, resonance: Resonance, omega: f64) -> Option<f64> {
         let (i, j) = resonance.pair();
@@ -132,13 +139,13 @@ impl Published {
         (per_beta > 0.0 && beta.is_finite()).then_some(beta)
     }
 
-    /// Eqs. (52), (68), (79), sections 3.2, 4.1, 4.3: the larger growth rate r of the resonant pair of modes, per
-    /// unit of dimensionless time; negative is decay. `None` when omega is a natural frequency.
+    /// Eqs. (52), (68), (79), sections 3.2, 4.1, 4.3: the larger growth rate r of the resonant pair of modes,
+    /// per unit of dimensionless time; negative is decay. `None` when omega is a natural frequency.
     ///
-    /// With Y_1 ~ e^((rho + i sigma/2) t) and conj(Y_2) ~ e^((rho - i sigma/2) t), rho = r + i s, the two modes of
-    /// the sum resonance give the complex quadratic (rho + mu_1 + i sigma/2)(rho + mu_2 - i sigma/2) = g_1 g_2, so
-    /// rho = -(mu_1 + mu_2)/2 + sqrt(((mu_1 - mu_2 + i sigma)/2)^2 + g_1 g_2), whose principal root grows faster.
-    /// The subharmonics are the case of one mode twice, Eqs. (68), (79).
+    /// With Y_1 ~ e^((rho + i sigma/2) t) and conj(Y_2) ~ e^((rho - i sigma/2) t), rho = r + i s, the two
+    /// modes of the sum resonance give the complex quadratic (rho + mu_1 + i sigma/2)(rho + mu_2 - i sigma/2)
+    /// = g_1 g_2, so rho = -(mu_1 + mu_2)/2 + sqrt(((mu_1 - mu_2 + i sigma)/2)^2 + g_1 g_2), whose principal
+    /// root grows faster. The subharmonics are the case of one mode twice, Eqs. (68), (79).
     #[doc(alias = "eq-52")]
     #[doc(alias = "eq-68")]
     #[doc(alias = "eq-79")]
@@ -152,8 +159,8 @@ impl Published {
         Some(root.re - 0.5 * (damping(i) + damping(j)))
     }
 
-    /// Eqs. (58), (69), (70), sections 3.2-4.1: whether the forced motion is stable by all three resonances, the
-    /// boundary counted as stable. `None` when omega is a natural frequency.
+    /// Eqs. (58), (69), (70), sections 3.2-4.1: whether the forced motion is stable by all three resonances,
+    /// the boundary counted as stable. `None` when omega is a natural frequency.
     #[doc(alias = "eq-58")]
     #[doc(alias = "eq-69")]
     #[doc(alias = "eq-70")]

@@ -8,16 +8,17 @@ use crate::model::ReducedSystem;
 /// Cap of the eigenvalue iteration; 17 x 17 matrices take about forty.
 const MAX_ITERATIONS: usize = 1000;
 
-/// Relative size at which the iteration drops an entry: safely above its own rounding errors. What accuracy that
-/// leaves out, [`refined`] brings back.
+/// Relative size at which the iteration drops an entry: safely above its own rounding errors. What accuracy
+/// that leaves out, [`refined`] brings back.
 const DEFLATION: f64 = 1e-14;
 
-/// Diagonals, in units of the highest frequency, that are tried until the iteration converges. It judges an entry by
-/// the diagonal beside it, which vanishes without damping; moved along, the matrix has one to judge by.
+/// Diagonals, in units of the highest frequency, that are tried until the iteration converges. It judges an
+/// entry by the diagonal beside it, which vanishes without damping; moved along, the matrix has one to judge
+/// by.
 const SHIFTS: [f64; 3] = [1.37, 0.71, 2.93];
 
-/// The 2N + 1 eigenvalues of the linear system (the matrix A of Eq. (60) without its quadratic term), dimensionless:
-/// ascending in frequency, the upper of a conjugate pair first.
+/// The 2N + 1 eigenvalues of the linear system (the matrix A of Eq. (60) without its quadratic term),
+/// dimensionless: ascending in frequency, the upper of a conjugate pair first.
 ///
 /// Each is good to rounding relative to its own size, except where two nearly coincide (critical damping).
 ///
@@ -63,8 +64,8 @@ fn refined(stiffness: &DynamicStiffness, value: Complex<f64>, highest: f64) -> C
     for _ in 0..2 {
         let Some(slope) = stiffness.logarithmic_slope(root) else { break };
         let step = slope.inv();
-        // A larger step has met a multiple root or the circuit's pole; NaN fails the comparison as well. Of a root
-        // at zero (an open circuit) only the absolute size is known.
+        // A larger step has met a multiple root or the circuit's pole; NaN fails the comparison as well. Of a
+        // root at zero (an open circuit) only the absolute size is known.
         if step.norm() < (1e-3 * root.norm()).max(1e-10 * highest) {
             root -= step;
         } else {
@@ -77,8 +78,8 @@ fn refined(stiffness: &DynamicStiffness, value: Complex<f64>, highest: f64) -> C
 
 /// The matrix A in coordinates whose squares are energies, (omega_k q_k, dq_k/dt) sqrt(eta_2k) and sqrt(c) v.
 ///
-/// All exchange of energy is antisymmetric in them and all loss symmetric, so that the matrix is as well balanced
-/// as it can be; in (q, dq/dt, v) the entries theta/c and theta differ by six orders of magnitude.
+/// All exchange of energy is antisymmetric in them and all loss symmetric, so that the matrix is as well
+/// balanced as it can be; in (q, dq/dt, v) the entries theta/c and theta differ by six orders of magnitude.
 fn energy_matrix(system: &ReducedSystem) -> DMatrix<f64> {
     let n = system.modes.len();
     let p = &system.parameters;

@@ -1,17 +1,18 @@
-//! The paper's steady state to first order: every mode follows the excitation undamped, and the circuit follows the
-//! modes without acting back on them. Damping does not enter.
+//! The paper's steady state to first order: every mode follows the excitation undamped, and the circuit
+//! follows the modes without acting back on them. Damping does not enter.
 
 use super::TheoryError;
 use crate::model::{Mode, ReducedSystem};
 
-/// Relative distance to a natural frequency below which Eq. (43) is all rounding: the frequencies themselves are
-/// not known better than this.
+/// Relative distance to a natural frequency below which Eq. (43) is all rounding: the frequencies themselves
+/// are not known better than this.
 const FREQUENCY_ACCURACY: f64 = 1e-13;
 
 /// A quantity that varies as amplitude sin(omega t + phase).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
-    /// Amplitude in the unit of the quantity (volts, beam lengths). Negative where a printed formula makes it so.
+    /// Amplitude in the unit of the quantity (volts, beam lengths). Negative where a printed formula makes it
+    /// so.
     pub amplitude: f64,
     /// Phase ahead of the excitation [rad].
     pub phase: f64,
@@ -69,9 +70,9 @@ impl SteadyState {
     /// Eqs. (45), (59), (71), (80), sections 3.1-4.3: the forced part of V_2, the steady-state voltage
     /// v = omega (sum of a_k theta_k) / sqrt(kappa^2 + c^2 omega^2) sin(omega t + atan(kappa / (c omega))).
     ///
-    /// All four print the same response, for the regions where one or the other resonance leaves it stable; ask
-    /// [`Published::stable`](super::Published::stable) for that. The sum runs over all modes of `system`, of which
-    /// the paper keeps two. The electrical back-action, left out here, shifts the resonances:
+    /// All four print the same response, for the regions where one or the other resonance leaves it stable;
+    /// ask [`Published::stable`](super::Published::stable) for that. The sum runs over all modes of `system`,
+    /// of which the paper keeps two. The electrical back-action, left out here, shifts the resonances:
     /// [`LinearResponse`](super::LinearResponse) has it.
     ///
     /// # Errors

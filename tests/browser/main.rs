@@ -147,13 +147,14 @@ fn says_what_a_frame_costs() {
     sleep(Duration::from_secs(2));
     let path: Vec<_> =
         (0..=200).map(|index| slider.at(0.02 + 0.96 * f64::from(index) / 200.0, 0.5)).collect();
-    let before = page.frames();
+    let count = |page: &Page| page.frames()["count"].as_u64().unwrap_or_default() as usize;
+    let before = count(&page);
     page.drag(&path, Duration::from_millis(8));
+    let drawn = count(&page) - before;
     let frames = page.frames();
     for (key, what) in [("cpu_ms", "logic and layout"), ("total_ms", "with tessellation and paint")] {
-        let mut times: Vec<f64> =
-            frames[key].as_array().into_iter().flatten().filter_map(Value::as_f64).collect();
-        let mut times = times.split_off(times.len().saturating_sub(drawn));
+        let times = frames[key].as_array().into_iter().flatten().rev().take(drawn);
+        let mut times: Vec<f64> = times.filter_map(Value::as_f64).collect();
         times.sort_by(f64::total_cmp);
         let Some(last) = times.len().checked_sub(1) else { panic!("no frame was timed") };
         let at = |share: f64| times[(last as f64 * share).round() as usize];

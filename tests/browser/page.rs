@@ -183,12 +183,6 @@ impl Page {
         }
         let mouse = mouse.then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
         self.browser.run(self.browser.client().perform_actions(mouse));
-        |kind: &str, (x, y): (f64, f64), held: bool| {
-            let parameters = json!({
-                "type": kind, "x": x, "y": y, "button": "left", "buttons": u8::from(held), "clickCount": 1,
-            });
-            self.browser.devtools("Input.dispatchMouseEvent", &parameters);
-        };
     }
 
     pub(crate) fn png(&self) -> Vec<u8> {

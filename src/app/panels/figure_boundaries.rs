@@ -4,7 +4,6 @@ use egui::Ui;
 use egui_plot::{Line, LineStyle, PlotBounds, PlotPoint, PlotPoints};
 
 use super::Context;
-use crate::app::comparison::FIGURE_HALF_WIDTH;
 use crate::app::figures::{BoundaryFigure, MARKED_EXCITATION};
 use crate::app::theme;
 use crate::app::widgets::number::significant;
@@ -28,7 +27,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigu
         let Some((_, first)) = tongues.first() else { return };
         let ceiling = figure.ceiling;
         let centre = first.published_frequency;
-        let half = FIGURE_HALF_WIDTH;
+        let half = figure.half_width;
         let (x, y) = (Axis::new("excitation frequency", "ω"), Axis::new("excitation amplitude", "β"));
         let tokens = theme::tokens(ui);
         plot_style::plot(ui, ("figure boundaries", figure.point), &x, &y)

@@ -63,7 +63,9 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure, lett
 
 fn history(ui: &mut Ui, figure: &Figure, shown: &Shown, [from, to]: [f64; 2], theory: bool) {
     let run = &shown.run;
-    let to = to.min(run.trajectory.end_time());
+    // A run of another length shows its own last stretch.
+    let late = if theory { (to - run.trajectory.end_time()).max(0.0) } else { 0.0 };
+    let (from, to) = ((from - late).max(0.0), (to - late).min(run.trajectory.end_time()));
     let voltage = run.system.dimension() - 1;
     let mut curve = Vec::with_capacity(POINTS);
     if from < to {

@@ -62,7 +62,7 @@ fn describe(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure) {
             let own = figure.scenario();
             if own.as_ref() != Some(&context.view.scenario) {
                 badge(ui, BadgeKind::Warning, "numbers changed");
-                if ui.button("Load the figure's").clicked() {
+                if ui.button(format!("Load Figure {}", figure.number)).clicked() {
                     context.commands.push(Command::LoadFigure(figure.number));
                 }
             }

@@ -11,7 +11,7 @@ use crate::app::widgets::{Series, legend};
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.shown() {
-        Some(shown) => format!("t = 2πk/ω · {} points", shown.curves.strobe.len()),
+        Some(shown) => format!("t = 2πk/ω · {} points, grey: earlier", shown.curves.strobe.len()),
         None => String::new(),
     };
     context.plot_card(ui, Panel::PoincareMap, "Poincaré map", &hint, map);
@@ -21,14 +21,7 @@ fn map(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(shown) = context.shown() else { return };
     let curves = &shown.curves;
     let (x, y) = axes();
-    legend::legend(
-        ui,
-        &[
-            (Series::Poincare, "last quarter"),
-            (Series::Ghost, "before"),
-            (Series::Theory, "first-order theory"),
-        ],
-    );
+    legend::legend(ui, &[(Series::Poincare, "last quarter"), (Series::Theory, "first-order theory")]);
     let [width, height] = curves.extent;
     plot_style::plot(ui, "poincare map", &x, &y)
         .include_x(-1.05 * width)

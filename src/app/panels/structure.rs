@@ -50,7 +50,7 @@ fn number(ui: &mut Ui, set: &mut ParameterSet, parameter: Parameter) {
             "Distance of the magnets with the beam sagged but unbent by them, in beam lengths.",
             Some(0.01),
         ),
-        Parameter::H => ("Magnet length", "h", "Length of each magnet, in beam lengths.", Some(1e-5)),
+        Parameter::H => ("Length", "h", "Length of each magnet, in beam lengths.", Some(1e-5)),
         Parameter::Eta => ("Tip mass", "η", "Mass at the tip over the mass of the beam.", Some(1e-3)),
         Parameter::C => {
             ("Capacitance", "c", "Capacitance of the ceramic, times one volt squared.", Some(1e-9))

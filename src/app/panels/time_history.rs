@@ -16,6 +16,8 @@ const DENSE_PERIODS: f64 = 90.0;
 const DENSE_POINTS: usize = 1600;
 /// Share of the card's width and height that the close view takes.
 const INSET: egui::Vec2 = vec2(0.46, 0.42);
+/// The same when the card fills the page.
+const INSET_LARGE: egui::Vec2 = vec2(0.42, 0.3);
 /// Height of the card's inside below which there is no room for the close view.
 const INSET_FROM: f32 = 190.0;
 
@@ -27,10 +29,12 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         let Some(shown) = context.shown() else { return };
         let area = ui.available_rect_before_wrap();
         let inset = area.height() >= INSET_FROM && shown.run.outcome() == Outcome::Completed;
-        let taken = if inset { f64::from(INSET.y) + 0.09 } else { 0.05 };
+        let large = context.view.enlarged == Some(Panel::TimeHistory);
+        let share = if large { INSET_LARGE } else { INSET };
+        let taken = if inset { f64::from(share.y) + 0.09 } else { 0.05 };
         whole(context, ui, shown, taken);
         if inset {
-            let size = area.size() * INSET;
+            let size = area.size() * share;
             let corner = egui::pos2(area.right() - size.x - 4.0, area.top() + 2.0);
             close_view(ui, Rect::from_min_size(corner, size), shown);
         }
@@ -40,16 +44,15 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 /// The whole run; the share `taken` of the plot's height is kept free at the top for the close view.
 fn whole(context: &Context<'_>, ui: &mut Ui, shown: &Shown, taken: f64) {
     let (x, y) = (Axis::new("time", "t"), Axis::new("voltage", "v").unit("V"));
-    let run = &shown.run;
     let [times, low, high] = &shown.curves.envelope;
     let top = high.iter().copied().fold(0.0, f64::max);
     let bottom = low.iter().copied().fold(0.0, f64::min);
-    let end = run.trajectory.end_time();
+    let end = shown.curves.end;
     let id = ui.make_persistent_id("time history bounds");
     let seen: Option<[f64; 2]> = ui.data(|data| data.get_temp(id));
     let [from, to] = seen.unwrap_or([0.0, end]);
     let dense = dense_curve(shown, from, to);
-    let response = plot_style::plot(ui, "time history", &x, &y)
+    let response = plot_style::plot(ui, ("time history", taken.to_bits()), &x, &y)
         .allow_zoom([true, false])
         .allow_drag([true, false])
         .allow_scroll([true, false])
@@ -75,7 +78,7 @@ fn whole(context: &Context<'_>, ui: &mut Ui, shown: &Shown, taken: f64) {
 /// The voltage itself when few enough periods are in view.
 fn dense_curve(shown: &Shown, from: f64, to: f64) -> Vec<PlotPoint> {
     let run = &shown.run;
-    let (from, to) = (from.max(0.0), to.min(run.trajectory.end_time()));
+    let (from, to) = (from.max(0.0), to.min(shown.curves.end));
     if !(to > from) || to - from > DENSE_PERIODS * run.system.parameters.period() {
         return Vec::new();
     }

@@ -21,7 +21,7 @@ pub use marks::Mark;
 const NAME_ROW: f32 = 26.0;
 const TRACK_ROW: f32 = 24.0;
 const FIELD: f32 = 84.0;
-const COMPACT_FIELD: f32 = 70.0;
+const COMPACT_FIELD: f32 = 78.0;
 
 /// What one frame of a slider did.
 #[derive(Debug, Clone)]
