@@ -112,8 +112,12 @@ fn ten_thousand_random_devices_end_in_finite_numbers_or_in_one_line() {
     for _ in 0..10_000 {
         let scenario = random.scenario();
         let start = Instant::now();
+        std::fs::write("/tmp/last.txt", format!("{scenario:?}")).unwrap();
         let result = std::panic::catch_unwind(|| Run::compute(&scenario));
         let took = start.elapsed();
+        if took > Duration::from_millis(300) {
+            eprintln!("{took:?}");
+        }
         slow.push((took, scenario.clone()));
         match result {
             Err(_) => panic!("{scenario:?}"),

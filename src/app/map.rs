@@ -10,7 +10,7 @@ use crate::theory::{CoupledModes, Published, Resonance};
 /// Half width of a window about one resonance (dimensionless frequency).
 pub(super) const HALF_WIDTH: f64 = 0.6;
 /// How far a boundary is followed to either side of its resonance: as wide as the widest map shows it.
-const REACH: f64 = 2.4;
+const REACH: f64 = 1.6;
 /// Points of a boundary.
 const POINTS: usize = 241;
 

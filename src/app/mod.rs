@@ -30,7 +30,7 @@ use session::{Session, Status};
 use view::{MapWindow, Tab, View};
 
 /// Width of the left column, and page width below which the columns are stacked.
-const COLUMN: f32 = 292.0;
+const COLUMN: f32 = 296.0;
 const STACKED: f32 = 760.0;
 
 /// The application.
@@ -201,9 +201,7 @@ fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
         .resizable(false)
         .exact_size(COLUMN)
         .show(ui, |ui| {
-            egui::ScrollArea::vertical()
-                .auto_shrink(false)
-                .show(ui, |ui| panels::controls::show(context, ui));
+            scrolled(ui, |ui| panels::controls::show(context, ui));
         });
     let page = page.inner_margin(Margin { left: 10, right: 0, top: 10, bottom: 10 });
     egui::CentralPanel::default().frame(page).show(ui, |ui| scrolled(ui, |ui| draw_tab(context, ui)));

@@ -29,6 +29,11 @@ const ROUNDING: f64 = 1e-14;
 /// Stiffness limit: rate times period, above which the tables would cost more than a run.
 const MAX_RATE_PERIOD: f64 = 2e5;
 
+/// Steps that a run may take beyond [`MOST_SHORTENED`]: none may go on for minutes.
+const SPARE_STEPS: u64 = 200_000;
+/// How many times shorter than the longest step the steps of a long run may be on average.
+const MOST_SHORTENED: u64 = 64;
+
 /// How a run is carried out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
@@ -49,7 +54,7 @@ impl Default for Settings {
 pub struct Step<'a> {
     /// Time at the start of the step (dimensionless).
     pub time: f64,
-    /// Extended state at the start, length 2N + 3: the state, then sine and cosine of omega t.
+    /// Extended state at the start, length 2N + 3: the state, then beta times sine and cosine of omega t.
     pub start: &'a [f64],
     /// R at the nodes.
     pub rest: &'a NodeValues,
@@ -68,6 +73,7 @@ pub struct Collocation<F> {
     force: F,
     settings: Settings,
     period: f64,
+    beta: f64,
     gap: f64,
     /// Steps a period at level 0.
     coarsest: usize,
@@ -112,13 +118,15 @@ impl<F: RestForce> Collocation<F> {
             return Err(IntegrationError::TooStiff { ratio });
         }
         let mut extended = initial.to_vec();
-        extended.extend([0.0, 1.0]);
+        let beta = system.parameters.beta;
+        extended.extend([0.0, beta]);
         Ok(Self {
             coarsest: coarsest_steps(system),
             part,
             force,
             settings,
             period,
+            beta,
             gap: system.equilibrium.gap,
             tables: vec![None; DEEPEST_LEVEL + 1],
             level: 0,
@@ -162,7 +170,8 @@ impl<F: RestForce> Collocation<F> {
     /// once there is one. The last step is shortened to end at `t_end`; after an outcome the run is over.
     ///
     /// # Errors
-    /// [`IntegrationError::StepTooSmall`] when no step is short enough and yet nothing escaped or touched.
+    /// [`IntegrationError::StepTooSmall`] when no step is short enough and yet nothing escaped or touched,
+    /// [`IntegrationError::TooManySteps`] when the motion needs so many that the run would hardly end.
     pub fn advance(
         &mut self,
         t_end: f64,
@@ -170,6 +179,9 @@ impl<F: RestForce> Collocation<F> {
         mut observer: impl FnMut(&Step<'_>),
     ) -> Result<Option<Outcome>, IntegrationError> {
         for _ in 0..most_steps {
+            if self.steps > SPARE_STEPS + MOST_SHORTENED * self.coarsest as u64 * self.periods {
+                return Err(IntegrationError::TooManySteps { time: self.time(), steps: self.steps });
+            }
             let remaining = t_end - self.time();
             if remaining <= 1e-12 * self.period {
                 return Ok(Some(Outcome::Completed));
@@ -304,8 +316,8 @@ impl<F: RestForce> Collocation<F> {
         }
         let dimension = self.part.modes * 2 + 1;
         let (sine, cosine) = (TAU * self.index as f64 / self.steps_per_period() as f64).sin_cos();
-        self.extended[dimension] = sine;
-        self.extended[dimension + 1] = cosine;
+        self.extended[dimension] = self.beta * sine;
+        self.extended[dimension + 1] = self.beta * cosine;
     }
 
     /// Doubles the step when the error leaves ample room and the grid allows it.

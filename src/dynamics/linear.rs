@@ -1,7 +1,8 @@
 //! The linear part of the system together with its excitation, and its propagation by Taylor series.
 //!
-//! The extended vector (q_1..q_N, dq_1/dt..dq_N/dt, v, sin omega t, cos omega t) of length 2N + 3 obeys an
-//! autonomous linear equation; with the rest force R as a known input it is y' = A y - g R.
+//! The extended vector (q_1..q_N, dq_1/dt..dq_N/dt, v, beta sin omega t, beta cos omega t) of length 2N + 3 obeys an
+//! autonomous linear equation; with the rest force R as a known input it is y' = A y - g R. The amplitude beta is in
+//! the vector, not in A, so that one preparation serves every excitation of a frequency.
 
 use crate::model::ReducedSystem;
 
@@ -47,7 +48,7 @@ impl LinearPart {
             modes: modes.len(),
             stiffness: modes.iter().map(|mode| mode.omega * mode.omega).collect(),
             damping: modes.iter().map(|mode| p.alpha * mode.omega * mode.omega).collect(),
-            drive: modes.iter().map(|mode| p.omega * p.omega * p.beta * mode.eta1 / mode.eta2).collect(),
+            drive: modes.iter().map(|mode| p.omega * p.omega * mode.eta1 / mode.eta2).collect(),
             inverse_mass,
             theta: system.theta.clone(),
             mutual_damping: p.alpha * system.c1,

@@ -52,6 +52,16 @@ pub enum IntegrationError {
         /// The tolerance asked for.
         tolerance: f64,
     },
+    /// The motion is so much faster than the excitation that the run would hardly end.
+    #[error(
+        "the motion is too fast to follow: {steps} steps have reached time {time} only; start nearer to rest, reduce beta or use the exact force law"
+    )]
+    TooManySteps {
+        /// Dimensionless time reached.
+        time: f64,
+        /// Steps done.
+        steps: u64,
+    },
     /// The linear system is so stiff that preparing a step would cost more than a run.
     #[error(
         "the device has a time scale {ratio:.0} times shorter than the excitation's period; reduce damping, load conductance or coupling"

@@ -14,9 +14,9 @@ const SETTLED: f64 = 1e-4;
 /// Voltage and its rate at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PhasePoint {
-    /// v [V].
+    /// v (V).
     pub v: f64,
-    /// dv/dt [V per dimensionless time].
+    /// dv/dt (V per dimensionless time).
     pub dv_dt: f64,
 }
 

@@ -13,17 +13,17 @@ pub struct Summary {
     pub from: f64,
     /// End of the window (dimensionless time).
     pub to: f64,
-    /// Root mean square of the voltage [V].
+    /// Root mean square of the voltage (V).
     pub v_rms: f64,
-    /// Largest |v| at the nodes of the steps [V].
+    /// Largest |v| at the nodes of the steps (V).
     pub v_peak: f64,
-    /// Largest |dv/dt| there [V per dimensionless time].
+    /// Largest |dv/dt| there (V per dimensionless time).
     pub dv_dt_peak: f64,
     /// Lowest tip displacement from equilibrium, towards the fixed magnet, in beam lengths.
     pub tip_min: f64,
     /// Highest tip displacement, in beam lengths.
     pub tip_max: f64,
-    /// Largest |v| of the whole run [V].
+    /// Largest |v| of the whole run (V).
     pub v_peak_whole: f64,
 }
 
@@ -32,7 +32,7 @@ pub struct Summary {
 pub struct Envelope {
     /// Width of a slice (dimensionless time).
     pub width: f64,
-    /// (lowest, highest) v of each slice begun so far [V]; empty slices hold NaN and are not drawn.
+    /// (lowest, highest) v of each slice begun so far (V); empty slices hold NaN and are not drawn.
     pub slices: Vec<(f64, f64)>,
 }
 

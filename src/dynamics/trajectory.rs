@@ -27,7 +27,7 @@ impl Trajectory {
     /// Integrates `system` from `initial` (length 2N + 1) to `t_end` under its own force law.
     ///
     /// # Errors
-    /// [`IntegrationError`] as [`Collocation::run`].
+    /// [`IntegrationError`] as [`Collocation::advance`].
     pub fn compute(
         system: &ReducedSystem,
         initial: &[f64],

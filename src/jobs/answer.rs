@@ -42,7 +42,7 @@ pub struct ModesAnswer {
     pub eta2: Vec<f64>,
     /// Couplings theta_n.
     pub theta: Vec<f64>,
-    /// Eigenvalues [re, im] of the coupled linear system of beam and circuit.
+    /// Eigenvalues (re, im) of the coupled linear system of beam and circuit.
     pub eigenvalues: Vec<[f64; 2]>,
 }
 

@@ -21,43 +21,43 @@ pub enum ElectricalScaling {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Device {
-    /// Residual flux density rho [T].
+    /// Residual flux density rho (T).
     pub flux_density: f64,
-    /// Permeability of air mu [H/m].
+    /// Permeability of air mu (H/m).
     pub permeability: f64,
-    /// Length H of each cylindrical magnet [m].
+    /// Length H of each cylindrical magnet (m).
     pub magnet_length: f64,
-    /// Radius R of each cylindrical magnet [m].
+    /// Radius R of each cylindrical magnet (m).
     pub magnet_radius: f64,
-    /// Common area S of the magnets [m^2].
+    /// Common area S of the magnets (m^2).
     pub magnet_area: f64,
     /// Whether the magnets repel (as in the paper) or attract.
     pub repelling: bool,
-    /// Distance D of the magnets before the beam sags [m].
+    /// Distance D of the magnets before the beam sags (m).
     pub magnet_distance: f64,
-    /// Length L of the cantilever [m].
+    /// Length L of the cantilever (m).
     pub beam_length: f64,
-    /// Mass m_b of the cantilever [kg].
+    /// Mass m_b of the cantilever (kg).
     pub beam_mass: f64,
-    /// Mass m_t at the tip, magnet included [kg].
+    /// Mass m_t at the tip, magnet included (kg).
     pub tip_mass: f64,
-    /// Young's modulus E [Pa].
+    /// Young's modulus E (Pa).
     pub youngs_modulus: f64,
-    /// Second moment of area I [m^4].
+    /// Second moment of area I (m^4).
     pub second_moment: f64,
-    /// Kelvin-Voigt viscosity Lambda [Pa s].
+    /// Kelvin-Voigt viscosity Lambda (Pa s).
     pub viscosity: f64,
-    /// Acceleration of gravity g [m/s^2].
+    /// Acceleration of gravity g (m/s^2).
     pub gravity: f64,
-    /// Capacitance C_eq [F].
+    /// Capacitance C_eq (F).
     pub capacitance: f64,
-    /// Load resistance R_eq [ohm].
+    /// Load resistance R_eq (ohm).
     pub resistance: f64,
-    /// Electromechanical coupling Theta [N/V as printed, N m/V consistently].
+    /// Electromechanical coupling Theta (N/V as printed, N m/V consistently).
     pub coupling: f64,
-    /// Amplitude B of the base motion [m].
+    /// Amplitude B of the base motion (m).
     pub base_amplitude: f64,
-    /// Frequency Omega/(2 pi) of the base motion [Hz].
+    /// Frequency Omega/(2 pi) of the base motion (Hz).
     pub frequency: f64,
 }
 
@@ -91,17 +91,17 @@ impl Default for Device {
 }
 
 impl Device {
-    /// sqrt(m_b L^3 / (E I)), the model's unit of time [s].
+    /// sqrt(m_b L^3 / (E I)), the model's unit of time (s).
     pub fn time_unit(&self) -> f64 {
         (self.beam_mass * self.beam_length.powi(3) / self.bending_stiffness()).sqrt()
     }
 
-    /// E I [N m^2].
+    /// E I (N m^2).
     pub fn bending_stiffness(&self) -> f64 {
         self.youngs_modulus * self.second_moment
     }
 
-    /// Eq. (1), section 2.1: force between the magnets at distance `distance` [m], in newtons, positive when they
+    /// Eq. (1), section 2.1: force between the magnets at distance `distance` (m), in newtons, positive when they
     /// repel.
     #[doc(alias = "eq-1")]
     pub fn magnet_force(&self, distance: f64) -> f64 {
@@ -110,7 +110,7 @@ impl Device {
         self.magnet_strength() * shape
     }
 
-    /// The factor before the bracket of Eq. (1) [N m^2], negative for attracting magnets.
+    /// The factor before the bracket of Eq. (1) (N m^2), negative for attracting magnets.
     fn magnet_strength(&self) -> f64 {
         let (h, r) = (self.magnet_length, self.magnet_radius);
         let strength =
@@ -118,14 +118,14 @@ impl Device {
         if self.repelling { strength } else { -strength }
     }
 
-    /// The load resistance [ohm] that has the dimensionless conductance `kappa` in the printed scaling of Eq. (8);
+    /// The load resistance (ohm) that has the dimensionless conductance `kappa` in the printed scaling of Eq. (8);
     /// `None` for an open circuit.
     pub fn resistance_of(&self, kappa: f64) -> Option<f64> {
         let resistance = self.beam_length.powi(2) * self.time_unit() / (self.bending_stiffness() * kappa);
         (kappa > 0.0).then_some(resistance)
     }
 
-    /// Sag of the tip under gravity, (m_b/8 + m_t/3) g L^3/(E I) [m].
+    /// Sag of the tip under gravity, (m_b/8 + m_t/3) g L^3/(E I) (m).
     pub fn sag(&self) -> f64 {
         (self.beam_mass / 8.0 + self.tip_mass / 3.0) * self.gravity * self.beam_length.powi(3)
             / self.bending_stiffness()

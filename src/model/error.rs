@@ -66,9 +66,9 @@ pub enum ModelError {
     /// The sag under gravity closes the gap of a device.
     #[error("under gravity the tip sags {sag} m, which closes the magnets' distance of {distance} m")]
     GapClosed {
-        /// Sag of the tip [m].
+        /// Sag of the tip (m).
         sag: f64,
-        /// Distance of the magnets before the beam sags [m].
+        /// Distance of the magnets before the beam sags (m).
         distance: f64,
     },
 }

@@ -1,6 +1,6 @@
 //! Table 2 and the field limits of section 5.4: the piezoelectric ceramics of APC International.
 
-/// One mil, a thousandth of an inch [m], the unit of thickness in the published field limits.
+/// One mil, a thousandth of an inch (m), the unit of thickness in the published field limits.
 pub const METRES_PER_MIL: f64 = 2.54e-5;
 
 /// A ceramic of Table 2.
@@ -14,7 +14,7 @@ pub struct Material {
     pub dissipation_factor: f64,
     /// Whether the dissipation factor is printed as an upper bound ("< 2 %").
     pub dissipation_is_bound: bool,
-    /// Published range of the largest alternating field [V per mil of thickness], where section 5.4 gives one.
+    /// Published range of the largest alternating field (V per mil of thickness), where section 5.4 gives one.
     pub field_limit: Option<(f64, f64)>,
 }
 

@@ -93,7 +93,7 @@ impl DynamicStiffness {
         self.response(omega).map(|response| response.sum())
     }
 
-    /// Voltage [V] that the modal displacements Q drive at s by Eq. (31):
+    /// Voltage (volts) that the modal displacements Q drive at s by Eq. (31):
     /// V = s (sum of theta_n Q_n) / (kappa + c s).
     fn voltage(&self, displacements: &DVector<Complex<f64>>, s: Complex<f64>) -> Complex<f64> {
         let charge: Complex<f64> = displacements.iter().zip(&self.theta).map(|(q, theta)| q * *theta).sum();
@@ -109,7 +109,7 @@ pub struct LinearResponse {
     pub omega: f64,
     /// Complex amplitudes of q_1..q_N, in beam lengths.
     pub displacements: DVector<Complex<f64>>,
-    /// Complex amplitude of the voltage [V].
+    /// Complex amplitude of the voltage, in volts.
     pub voltage: Complex<f64>,
 }
 
@@ -132,7 +132,7 @@ impl LinearResponse {
         self.displacements.sum()
     }
 
-    /// The voltage as amplitude [V] and phase.
+    /// The voltage as amplitude (volts) and phase (radians).
     pub fn voltage_harmonic(&self) -> Harmonic {
         let (amplitude, phase) = self.voltage.to_polar();
         Harmonic { amplitude, phase, omega: self.omega }

@@ -14,7 +14,7 @@ pub struct Harmonic {
     /// Amplitude in the unit of the quantity (volts, beam lengths). Negative where a printed formula makes it
     /// so.
     pub amplitude: f64,
-    /// Phase ahead of the excitation [rad].
+    /// Phase ahead of the excitation, in radians.
     pub phase: f64,
     /// Angular frequency (dimensionless).
     pub omega: f64,
@@ -62,7 +62,7 @@ pub struct SteadyState {
     pub amplitudes: Vec<f64>,
     /// Tip displacement from equilibrium, in beam lengths.
     pub tip: Harmonic,
-    /// Voltage [V].
+    /// Voltage, in volts.
     pub voltage: Harmonic,
 }
 

@@ -54,7 +54,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             .collect();
         let base = p.beta * (p.omega * time).sin();
         let mut beam = BeamView::new(&shape, -gap).base(base).extremes(&extremes);
-        if p.c0 != 0.0 {
+        if p.c0 != 0.0 && run.outcome() == Outcome::Completed {
             beam = beam.gap(open);
         }
         beam.show(ui, HEIGHT);
