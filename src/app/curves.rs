@@ -7,11 +7,13 @@ use crate::jobs::Run;
 use crate::theory::SteadyState;
 
 /// Samples of an excitation period in the phase portrait.
-const SAMPLES_PER_PERIOD: usize = 96;
+const SAMPLES_PER_PERIOD: usize = 72;
+/// The same while the motion starts and in the close view.
+const COARSE_SAMPLES: f64 = 40.0;
 /// Periods shown of a motion that does not repeat.
 const APERIODIC_PERIODS: f64 = 24.0;
 /// Periods of the start, drawn faintly.
-const TRANSIENT_PERIODS: f64 = 30.0;
+const TRANSIENT_PERIODS: f64 = 20.0;
 /// Periods in the close view of the time history.
 const CLOSE_PERIODS: f64 = 6.0;
 /// Dots that stand for the theory on one period.
@@ -86,7 +88,7 @@ impl Curves {
         });
         if !early {
             let until = (TRANSIENT_PERIODS * period).min(from);
-            run.trajectory.sample(0.0, until, (TRANSIENT_PERIODS * 40.0) as usize, |_, state| {
+            run.trajectory.sample(0.0, until, (TRANSIENT_PERIODS * COARSE_SAMPLES) as usize, |_, state| {
                 curves.transient.push(PlotPoint::new(state[voltage], system.voltage_rate(state)));
             });
         }
@@ -101,7 +103,8 @@ impl Curves {
 
     fn sample_close_view(&mut self, run: &Run, from: f64, end: f64) {
         let voltage = run.system.dimension() - 1;
-        run.trajectory.sample(from.max(0.0), end, 700, |time, state| {
+        let count = (CLOSE_PERIODS * 2.0 * COARSE_SAMPLES) as usize;
+        run.trajectory.sample(from.max(0.0), end, count, |time, state| {
             self.close.push(PlotPoint::new(time, state[voltage]));
         });
     }

@@ -6,8 +6,8 @@
 
 use crate::model::ReducedSystem;
 
-/// Order of the Taylor series; with [`MAX_RATE_STEP`] the remainder is below 1e-18 of the vector.
-const ORDER: usize = 16;
+/// Remainder of the Taylor series, relative to the vector.
+const REMAINDER: f64 = 1e-18;
 /// Largest product of the fastest rate and a sub-step.
 const MAX_RATE_STEP: f64 = 0.5;
 
@@ -103,10 +103,11 @@ impl LinearPart {
             power *= step;
         }
         next.resize(y.len(), 0.0);
+        let order = order(self.rate * step).max(rest.len());
         for _ in 0..count as usize {
             term.clear();
             term.extend_from_slice(y);
-            for k in 0..ORDER {
+            for k in 0..order {
                 self.apply(term, scaled.get(k).copied().unwrap_or(0.0), next);
                 let scale = step / (k as f64 + 1.0);
                 for (value, sum) in next.iter_mut().zip(y.iter_mut()) {
@@ -118,6 +119,16 @@ impl LinearPart {
             move_origin_by_one(scaled);
         }
     }
+}
+
+/// Number of terms after which those of exp(x) are below [`REMAINDER`].
+fn order(x: f64) -> usize {
+    let (mut term, mut k) = (1.0, 0);
+    while term > REMAINDER && k < 40 {
+        k += 1;
+        term *= x / k as f64;
+    }
+    k
 }
 
 /// Coefficients of the polynomial p(x + 1) from those of p(x), in place.

@@ -7,8 +7,8 @@ use crate::model::reduced::ForceVisitor;
 use crate::model::{ModelError, ReducedSystem, RestForce};
 use crate::scenario::Scenario;
 
-/// Slices of the voltage's envelope; more than a plot has pixels.
-const ENVELOPE_SLICES: usize = 1200;
+/// Slices of the voltage's envelope; about as many as a plot has pixels.
+const ENVELOPE_SLICES: usize = 800;
 /// Part of a run that its summary covers: the last tenth.
 const WINDOW: f64 = 0.1;
 

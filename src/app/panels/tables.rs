@@ -4,18 +4,60 @@ use egui::{Grid, RichText, Ui};
 
 use super::Context;
 use super::controls::short;
-use crate::app::theme;
-use crate::app::widgets::Card;
+use crate::app::widgets::{Card, number};
+use crate::app::{fonts, theme};
 use crate::model::materials::TABLE_2;
 use crate::model::{Device, ElectricalScaling, Parameter};
 
+/// Symbols of the ten numbers, in the order of [`Parameter::ALL`].
+const SYMBOLS: [&str; 10] = ["α", "β", "ω", "c_0", "d", "h", "η", "c", "κ", "θ"];
+/// Width from which the two columns stand side by side.
+const TWO_COLUMNS: f32 = 780.0;
+
 /// Draws the three tables.
 pub(super) fn show(_context: &mut Context<'_>, ui: &mut Ui) {
+    if ui.available_width() < TWO_COLUMNS {
+        first(ui);
+        ui.add_space(10.0);
+        second(ui);
+    } else {
+        ui.columns(2, |columns| {
+            first(&mut columns[0]);
+            second(&mut columns[1]);
+        });
+    }
+}
+
+fn first(ui: &mut Ui) {
     Card::new("Table 1 and section 3.2: the device").hugging().show(ui, device);
-    ui.add_space(10.0);
+}
+
+fn second(ui: &mut Ui) {
     Card::new("Its dimensionless numbers, Eq. 8").hugging().show(ui, numbers);
     ui.add_space(10.0);
     Card::new("Table 2 and section 5.4: piezoelectric ceramics").hugging().show(ui, ceramics);
+}
+
+/// A symbol with what follows an underscore lowered.
+fn symbol(ui: &mut Ui, text: &str) {
+    let tokens = theme::tokens(ui);
+    let (base, index) = text.split_once('_').unwrap_or((text, ""));
+    let mut job = egui::text::LayoutJob::default();
+    for (part, size) in [(base, theme::size::BODY), (index, 0.72 * theme::size::BODY)] {
+        let format = egui::TextFormat {
+            font_id: fonts::regular(size),
+            color: tokens.text_strong,
+            valign: egui::Align::BOTTOM,
+            ..Default::default()
+        };
+        job.append(part, 0.0, format);
+    }
+    ui.label(job);
+}
+
+/// Five significant digits without trailing zeros.
+fn value(ui: &mut Ui, value: f64) {
+    ui.label(number::typographic(&number::round_significant(value, 5).to_string()));
 }
 
 fn heading(ui: &mut Ui, texts: &[&str]) {
@@ -36,7 +78,7 @@ fn device(ui: &mut Ui) {
     let d = Device::default();
     let rows: [(&str, &str, f64, &str); 17] = [
         ("ρ", "residual flux density", d.flux_density, "T"),
-        ("μ", "permeability of air", d.permeability, "H/m"),
+        ("μ", "permeability of air", 1e6 * d.permeability, "µH/m"),
         ("H", "length of a magnet", 1e3 * d.magnet_length, "mm"),
         ("R", "radius of a magnet", 1e3 * d.magnet_radius, "mm"),
         ("S", "common area of the magnets", 1e6 * d.magnet_area, "mm²"),
@@ -50,15 +92,15 @@ fn device(ui: &mut Ui) {
         ("g", "gravity", d.gravity, "m/s²"),
         ("C_eq", "capacitance", 1e9 * d.capacitance, "nF"),
         ("R_eq", "load resistance", 1e-6 * d.resistance, "MΩ"),
-        ("Θ", "electromechanical coupling", d.coupling, "N/V"),
-        ("T", "unit of time √(m_b L³ / EI)", d.time_unit(), "s"),
+        ("Θ", "electromechanical coupling", 1e6 * d.coupling, "µN/V"),
+        ("T", "unit of time", d.time_unit(), "s"),
     ];
     table(ui, "device", |ui| {
         heading(ui, &["symbol", "meaning", "value", "unit"]);
-        for (symbol, meaning, value, unit) in rows {
-            ui.label(symbol);
+        for (name, meaning, number, unit) in rows {
+            symbol(ui, name);
             ui.label(meaning);
-            ui.label(crate::app::widgets::number::significant(value, 5));
+            value(ui, number);
             ui.label(unit);
             ui.end_row();
         }
@@ -72,10 +114,10 @@ fn numbers(ui: &mut Ui) {
     let (Ok(printed), Ok(consistent)) = (printed, consistent) else { return };
     table(ui, "numbers", |ui| {
         heading(ui, &["number", "as printed", "consistent units"]);
-        for parameter in Parameter::ALL {
-            ui.label(parameter.field());
-            ui.label(short(parameter.get(&printed)));
-            ui.label(short(parameter.get(&consistent)));
+        for (parameter, name) in Parameter::ALL.into_iter().zip(SYMBOLS) {
+            symbol(ui, name);
+            value(ui, parameter.get(&printed));
+            value(ui, parameter.get(&consistent));
             ui.end_row();
         }
     });
