@@ -73,6 +73,9 @@ pub(super) fn state(view: &View, session: &Session) -> String {
 /// One line with the path of the field and what is wrong with it.
 pub(super) fn parse(json: &str, present: &View) -> Result<View, String> {
     let value: Value = serde_json::from_str(json).map_err(|error| format!("not valid JSON: {error}"))?;
+    if !value.is_object() {
+        return Err("expected an object such as {\"parameters\":{\"omega\":25}}".to_owned());
+    }
     let is_view = value.get("scenario").is_some();
     let describe =
         |error: serde_path_to_error::Error<serde_json::Error>| format!("{}: {}", error.path(), error.inner());
