@@ -4,18 +4,43 @@
 //! * [`collocation`] is the integrator behind everything else: the linear beam and circuit are carried by their
 //!   exact propagator, the magnet's rest force by Gauss-Legendre collocation; [`linear`] and [`tables`] prepare it.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`poincare`] and [`summary`] read them.
+//! * [`period_map`] is the stroboscopic map with its exact derivative, [`newton`] finds its fixed points, [`orbit`]
+//!   and [`floquet`] say what they are.
+//! * [`boundary`] and [`tongue`] find where the forced motion loses its stability, [`continuation`] follows periodic
+//!   motions in any parameter.
 
+mod arclength;
+pub mod boundary;
+mod bracket;
+pub mod branch;
 pub mod collocation;
+pub mod continuation;
+pub mod floquet;
 pub mod linear;
+pub mod newton;
+pub mod orbit;
+pub mod orbit_error;
 pub mod outcome;
+pub mod period_map;
 pub mod poincare;
 pub mod rk4;
 pub mod summary;
 pub mod tables;
+pub mod tongue;
 pub mod trajectory;
+mod variation;
 
+pub use boundary::{CriticalExcitation, critical_excitation, largest_multipliers};
+pub use branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course};
 pub use collocation::{Collocation, Settings};
+pub use continuation::{follow_branch, follow_doubled};
+pub use floquet::Instability;
+pub use newton::OrbitSolver;
+pub use orbit::Orbit;
+pub use orbit_error::OrbitError;
 pub use outcome::{IntegrationError, Outcome};
+pub use period_map::PeriodMap;
+pub use tongue::{Tongue, trace_tongue};
 pub use trajectory::Trajectory;
 
 /// Tip displacement, in beam lengths, beyond which a motion counts as escaped: ten times the beam's own length,

@@ -12,6 +12,9 @@ use crate::model::quadrature::{gauss_legendre, legendre};
 /// Number of collocation nodes in a step; the state at its end is then of order sixteen in its length.
 pub const NODES: usize = 8;
 
+/// Entries of the state at the end of a step that are summed together.
+pub(super) const BLOCK: usize = 4;
+
 /// A value at each node of a step.
 pub type NodeValues = [f64; NODES];
 
@@ -156,8 +159,8 @@ impl StepTables {
         let n = part.modes;
         let extended = part.extended_dimension();
         let dimension = 2 * n + 1;
-        // Rows are padded to whole vectors of two; the padding stays zero.
-        let stride = dimension.next_multiple_of(2);
+        // Rows are padded to whole blocks; the padding stays zero.
+        let stride = dimension.next_multiple_of(BLOCK);
         let mut tables = Self {
             step,
             tip: NodeMap { from_state: vec![[0.0; NODES]; extended], ..Default::default() },
@@ -235,13 +238,24 @@ impl StepTables {
     /// step, from the extended state at its start and R at the nodes.
     #[inline]
     pub fn end(&self, extended: &[f64], rest: &NodeValues, out: &mut [f64]) {
-        out.fill(0.0);
-        let inputs = extended.iter().chain(rest);
-        for (value, column) in inputs.zip(self.end.chunks_exact(self.stride)) {
-            for (sum, entry) in out.iter_mut().zip(column) {
-                *sum += value * entry;
+        // Block by block, so that the sums stay in registers.
+        for (block, out) in out.chunks_exact_mut(BLOCK).enumerate() {
+            let mut sums = [0.0; BLOCK];
+            let inputs = extended.iter().chain(rest);
+            for (value, column) in inputs.zip(self.end.chunks_exact(self.stride)) {
+                for (sum, entry) in sums.iter_mut().zip(&column[block * BLOCK..(block + 1) * BLOCK]) {
+                    *sum += value * entry;
+                }
             }
+            out.copy_from_slice(&sums);
         }
+    }
+
+    /// What a unit of component `column` of the extended state at the start (from 2N + 3 on: of R at the nodes)
+    /// does to the state at the end; padded to [`Self::stride`].
+    #[inline]
+    pub(crate) fn end_column(&self, column: usize) -> &[f64] {
+        &self.end[column * self.stride..(column + 1) * self.stride]
     }
 
     /// Length 2N + 1 of the state.

@@ -69,10 +69,12 @@ impl Polynomial {
 }
 
 impl RestForce for Polynomial {
+    #[inline]
     fn rest(&self, s: f64) -> f64 {
         s * s * self.coefficients.iter().rev().fold(0.0, |sum, c| sum * s + c)
     }
 
+    #[inline]
     fn slope(&self, s: f64) -> f64 {
         let weighted = self.coefficients.iter().enumerate().rev();
         s * weighted.fold(0.0, |sum, (i, c)| sum * s + (i as f64 + 2.0) * c)
@@ -96,10 +98,12 @@ pub struct Quadratic {
 }
 
 impl RestForce for Quadratic {
+    #[inline]
     fn rest(&self, s: f64) -> f64 {
         self.c2 * s * s
     }
 
+    #[inline]
     fn slope(&self, s: f64) -> f64 {
         2.0 * self.c2 * s
     }
@@ -175,6 +179,7 @@ impl Exact {
 }
 
 impl RestForce for Exact {
+    #[inline]
     fn rest(&self, s: f64) -> f64 {
         if self.is_small(s) {
             let numerator = self.numerator.iter().rev().fold(0.0, |sum, c| sum * s + c);
@@ -186,6 +191,7 @@ impl RestForce for Exact {
         }
     }
 
+    #[inline]
     fn slope(&self, s: f64) -> f64 {
         if self.is_small(s) {
             let (m, dm, q, log_slope) = self.fraction(s);

@@ -20,6 +20,7 @@ impl Magnet {
     /// The three inverse squares of the paper nearly cancel when h is small; written over a common denominator
     /// about the centre u = x + h nothing cancels: F = 2 c0 h^2 (3 u^2 - h^2) / (u^2 (u^2 - h^2)^2).
     #[doc(alias = "eq-11")]
+    #[inline]
     pub fn force(&self, x: f64) -> f64 {
         let (u2, h2) = ((x + self.h).powi(2), self.h * self.h);
         // u^2 - h^2 = x (x + 2 h), in the form that keeps its digits near contact.

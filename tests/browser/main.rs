@@ -1,6 +1,6 @@
 //! The built page in a real Chromium. `make test` builds the page and runs these; plain `cargo test` skips them.
-#![allow(clippy::expect_used, clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod agreement;
 mod driver;
 mod page;
 mod server;

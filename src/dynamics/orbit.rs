@@ -1,0 +1,223 @@
+//! Periodic motions: found by Newton's iteration on the stroboscopic map, measured, and judged by their multipliers.
+
+use nalgebra::Complex;
+use serde::Serialize;
+
+use super::OrbitError;
+use super::collocation::Step;
+use super::floquet::Instability;
+use super::newton::{Convergence, OrbitSolver};
+use super::tables::{NODES, RULE};
+use crate::model::quadrature::gauss_legendre;
+use crate::model::reduced::ForceVisitor;
+use crate::model::{ReducedSystem, RestForce};
+use crate::theory::LinearResponse;
+
+/// Distance between stroboscopic points, over the gap, below which they are the same point.
+const SAME_POINT: f64 = 1e-8;
+/// Points of a step at which the tip's extremes are looked for.
+const SAMPLES: usize = 24;
+/// Decay within one step beyond which rounding hides its determinant.
+const MEASURABLE_DECAY: f64 = 12.0;
+
+/// Means and extremes of a periodic motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Measures {
+    /// Root mean square of the voltage (V).
+    pub v_rms: f64,
+    /// Mean electrical power kappa v^2 in the load (dimensionless).
+    pub power: f64,
+    /// Lowest tip displacement from equilibrium, towards the fixed magnet, in beam lengths.
+    pub tip_min: f64,
+    /// Highest tip displacement, in beam lengths.
+    pub tip_max: f64,
+}
+
+/// A periodic motion of a system.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orbit {
+    /// Its shortest period, in excitation periods; it may be a part of what was asked for.
+    pub periods: usize,
+    /// State at t = 0, length 2N + 1.
+    pub state: Vec<f64>,
+    /// Floquet multipliers over the shortest period by descending modulus, 2N + 1 of them, or 2N without a load,
+    /// where the conserved charge adds a trivial 1.
+    pub multipliers: Vec<Complex<f64>>,
+    /// Means and extremes.
+    pub measures: Measures,
+    /// Largest defect of periodicity, as a displacement over the gap s0 (dimensionless).
+    pub residual: f64,
+    /// Evaluations of the map that Newton's iteration took.
+    pub iterations: usize,
+    /// Collocation steps of one excitation period.
+    pub steps_per_period: usize,
+    /// |det(monodromy) / exp(m T tr A) - 1| with the determinants multiplied step by step (Liouville's formula; the
+    /// product of the multipliers, whose smallest ones rounding may have blurred). `None` when the motion decays so
+    /// fast that a single step's determinant is lost to rounding.
+    pub liouville_defect: Option<f64>,
+}
+
+impl Orbit {
+    /// The orbit of `periods` excitation periods of `system` under its own excitation and force law that Newton's
+    /// iteration reaches from `guess` (length 2N + 1), by default from the linear response at t = 0.
+    ///
+    /// From there it reaches the forced motion of the excitation's own period; orbits of longer period need a guess
+    /// near them, such as a state taken from a run.
+    ///
+    /// # Errors
+    /// As [`OrbitSolver::find`].
+    pub fn find(system: &ReducedSystem, guess: Option<&[f64]>, periods: usize) -> Result<Self, OrbitError> {
+        struct Find<'a>(&'a ReducedSystem, &'a [f64], usize);
+        impl ForceVisitor for Find<'_> {
+            type Output = Result<Orbit, OrbitError>;
+            fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
+                let beta = self.0.parameters.beta;
+                let mut solver = OrbitSolver::new(self.0, force)?;
+                let convergence = solver.find(self.1, beta, self.2)?;
+                Orbit::read(self.0, &mut solver, convergence, beta, self.2)
+            }
+        }
+        let start = match guess {
+            Some(guess) => guess.to_vec(),
+            None => forced_motion(system),
+        };
+        system.dispatch(Find(system, &start, periods))
+    }
+
+    /// Everything about the orbit of `periods` excitation periods that `solver` found last.
+    ///
+    /// # Errors
+    /// As [`super::PeriodMap::apply`] and [`OrbitSolver::multipliers`].
+    pub fn read<F: RestForce>(
+        system: &ReducedSystem,
+        solver: &mut OrbitSolver<F>,
+        convergence: Convergence,
+        beta: f64,
+        periods: usize,
+    ) -> Result<Self, OrbitError> {
+        let periods = shortest_period(solver, beta, periods)?;
+        // One more pass over the shortest period: the derivative at the final state, and what is seen on the way.
+        let state = solver.state().to_vec();
+        let mut observer = Observer::default();
+        let residual = solver.evaluate_observed(beta, periods, |step, derivative| {
+            observer.record(step);
+            observer.logarithm += derivative.matrix().determinant().ln();
+        })?;
+        let steps_per_period = solver.map().steps_per_period();
+        let duration = solver.map().period() * periods as f64;
+        let exponent = system.jacobian(0.0).trace() * duration;
+        let measurable = -exponent < MEASURABLE_DECAY * (steps_per_period * periods) as f64;
+        Ok(Self {
+            multipliers: solver.multipliers()?,
+            measures: observer.measures(system.parameters.kappa),
+            liouville_defect: measurable.then(|| (observer.logarithm - exponent).exp_m1().abs()),
+            iterations: convergence.iterations,
+            state,
+            periods,
+            residual,
+            steps_per_period,
+        })
+    }
+
+    /// Whether every multiplier is inside the unit circle.
+    pub fn stable(&self) -> bool {
+        self.largest_multiplier().norm() < 1.0
+    }
+
+    /// The multiplier of largest modulus.
+    pub fn largest_multiplier(&self) -> Complex<f64> {
+        self.multipliers.first().copied().unwrap_or_default()
+    }
+
+    /// How the motion is unstable, by its largest multiplier; `None` when it is stable.
+    pub fn instability(&self) -> Option<Instability> {
+        (!self.stable()).then(|| Instability::of(self.largest_multiplier()))
+    }
+}
+
+/// State of the linear response at t = 0, or rest where there is none.
+pub(super) fn forced_motion(system: &ReducedSystem) -> Vec<f64> {
+    LinearResponse::new(system).map_or_else(|_| vec![0.0; system.dimension()], |response| response.state(0.0))
+}
+
+/// The shortest number of excitation periods after which the orbit that `solver` found last repeats.
+///
+/// # Errors
+/// As [`super::PeriodMap::apply`].
+pub(super) fn shortest_period<F: RestForce>(
+    solver: &mut OrbitSolver<F>,
+    beta: f64,
+    periods: usize,
+) -> Result<usize, OrbitError> {
+    let state = solver.state().to_vec();
+    for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
+        let map = solver.map();
+        map.apply(&state, beta, part, |_, _| ())?;
+        let distances =
+            map.image().iter().zip(&state).zip(map.scales()).map(|((a, b), scale)| (a - b).abs() / scale);
+        if distances.fold(0.0, f64::max) < SAME_POINT * map.gap() {
+            return Ok(part);
+        }
+    }
+    Ok(periods)
+}
+
+/// Reads a motion step by step.
+pub(super) struct Observer {
+    weights: Vec<f64>,
+    square: f64,
+    steps: f64,
+    tip_min: f64,
+    tip_max: f64,
+    /// Logarithm of the determinant of the map's derivative.
+    logarithm: f64,
+}
+
+impl Default for Observer {
+    fn default() -> Self {
+        Self {
+            weights: gauss_legendre(NODES).1,
+            square: 0.0,
+            steps: 0.0,
+            tip_min: f64::INFINITY,
+            tip_max: f64::NEG_INFINITY,
+            logarithm: 0.0,
+        }
+    }
+}
+
+impl Observer {
+    pub(super) fn record(&mut self, step: &Step<'_>) {
+        let voltage = step.tables.voltage.at_nodes(step.start, step.rest);
+        self.square += self.weights.iter().zip(&voltage).map(|(w, v)| w * v * v).sum::<f64>();
+        self.steps += 1.0;
+        // s is smooth within a step, so the polynomial through the nodes is as good as s; its extremes lie on
+        // parabolas through the samples.
+        let polynomial = RULE.taylor(step.tip, 0.0, 1.0);
+        let at = |i: usize| {
+            let x = i as f64 / SAMPLES as f64;
+            polynomial.iter().rev().fold(0.0, |sum, c| sum * x + c)
+        };
+        let (mut before, mut value) = (at(0), at(1));
+        self.see(before);
+        for i in 2..=SAMPLES {
+            let after = at(i);
+            let (slope, bend) = (0.5 * (after - before), after + before - 2.0 * value);
+            let extreme = slope.abs() <= bend.abs();
+            self.see(if extreme && bend != 0.0 { value - 0.5 * slope * slope / bend } else { value });
+            (before, value) = (value, after);
+        }
+        self.see(value);
+    }
+
+    fn see(&mut self, s: f64) {
+        self.tip_min = self.tip_min.min(s);
+        self.tip_max = self.tip_max.max(s);
+    }
+
+    pub(super) fn measures(&self, kappa: f64) -> Measures {
+        // The steps are equally long, so the mean is that of their means.
+        let mean = self.square / self.steps;
+        Measures { v_rms: mean.sqrt(), power: kappa * mean, tip_min: self.tip_min, tip_max: self.tip_max }
+    }
+}

@@ -1,0 +1,208 @@
+//! Periodic orbits and their multipliers against reference values and closed forms.
+
+#![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
+
+use harvester_lab::dynamics::{Instability, Orbit, OrbitError, PeriodMap, Settings, Trajectory};
+use harvester_lab::model::reduced::ForceVisitor;
+use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem, RestForce};
+use harvester_lab::theory::LinearResponse;
+use harvester_lab::theory::spectrum::eigenvalues;
+use nalgebra::Complex;
+
+type TestResult = Result<(), Box<dyn std::error::Error>>;
+
+const LAWS: [ForceLaw; 3] = [ForceLaw::Quadratic, ForceLaw::Taylor(5), ForceLaw::Exact];
+
+fn system(
+    set: ParameterSet,
+    modes: usize,
+    law: ForceLaw,
+) -> Result<ReducedSystem, Box<dyn std::error::Error>> {
+    Ok(ReducedSystem::new(Parameters::new(set)?, modes, law)?)
+}
+
+fn strong() -> ParameterSet {
+    ParameterSet { alpha: 1e-4, beta: 1e-2, ..Default::default() }
+}
+
+fn figure_9(law: ForceLaw) -> Result<ReducedSystem, Box<dyn std::error::Error>> {
+    let system = system(strong(), 2, law)?;
+    Ok(system.with_excitation(1e-2, 2.0 * system.modes[0].omega)?)
+}
+
+#[test]
+fn the_forced_motions_of_the_figures() -> TestResult {
+    // Largest moduli from an independent program.
+    let low = system(strong(), 2, ForceLaw::Quadratic)?;
+    let mild = system(ParameterSet::default(), 2, ForceLaw::Quadratic)?;
+    let (first, second) = (low.modes[0].omega, low.modes[1].omega);
+    for (base, beta, omega, reference) in [
+        (&mild, 1e-3, 25.0, 0.996743),
+        (&low, 1e-2, first + second, 0.999378),
+        (&low, 1e-2, second - first, 0.994786),
+        (&mild, 1e-3, 8.0, 0.989845),
+        (&low, 1e-2, 2.0 * first, 1.148382),
+        (&mild, 1e-3, 43.0, 0.998103),
+        (&low, 1e-2, 2.0 * second, 0.998852),
+    ] {
+        let orbit = Orbit::find(&base.with_excitation(beta, omega)?, None, 1)?;
+        let modulus = orbit.largest_multiplier().norm();
+        assert!((modulus - reference).abs() < 1e-6, "omega = {omega}: {modulus}");
+        assert_eq!(orbit.stable(), reference < 1.0);
+        assert!(orbit.residual < 1e-12, "{}", orbit.residual);
+    }
+    let orbit = Orbit::find(&figure_9(ForceLaw::Quadratic)?, None, 1)?;
+    assert!((orbit.largest_multiplier() - Complex::from(-1.148382)).norm() < 1e-6);
+    assert_eq!(orbit.instability(), Some(Instability::PeriodDoubling));
+    Ok(())
+}
+
+#[test]
+fn the_period_two_motion_of_figure_9() -> TestResult {
+    let system = figure_9(ForceLaw::Quadratic)?;
+    let period = system.parameters.period();
+    let run = Trajectory::compute(&system, &[0.0; 5], 600.0 * period, Settings::default())?;
+    // Asked for four periods, the iteration finds the orbit of two and says so.
+    for periods in [2, 4] {
+        let orbit = Orbit::find(&system, Some(run.final_state()), periods)?;
+        assert_eq!(orbit.periods, 2);
+        assert!(orbit.stable());
+        let (measures, gap) = (orbit.measures, system.equilibrium.gap);
+        // An independent program's run from rest, settled to a thousandth: the orbit's largest modulus is 0.988.
+        assert!((measures.v_rms / 14.19 - 1.0).abs() < 1e-3, "{}", measures.v_rms);
+        assert!((orbit.largest_multiplier().norm() - 0.988).abs() < 1e-3);
+        // Means of a periodic function by equal samples converge faster than any power: a second way to v_rms.
+        let lap = Trajectory::compute(&system, &orbit.state, 2.0 * period, Settings { tolerance: 1e-8 })?;
+        let times: Vec<f64> = (0..400).map(|i| 2.0 * period * f64::from(i) / 400.0).collect();
+        let mut square = 0.0;
+        lap.read_at(&times, |_, state| square += state[4] * state[4] / 400.0);
+        assert!((measures.v_rms - square.sqrt()).abs() < 1e-7, "{} {}", measures.v_rms, square.sqrt());
+        let (mut low, mut high) = (0.0_f64, 0.0_f64);
+        lap.sample(0.0, 2.0 * period, 4000, |_, state| {
+            let s = system.tip_displacement(state);
+            (low, high) = (low.min(s), high.max(s));
+        });
+        assert!((measures.tip_min - low).abs() < 1e-5 * gap, "{} {low}", measures.tip_min);
+        assert!((measures.tip_max - high).abs() < 1e-5 * gap, "{} {high}", measures.tip_max);
+    }
+    // From the linear response it finds the forced motion.
+    assert_eq!(Orbit::find(&system, None, 2)?.periods, 1);
+    Ok(())
+}
+
+#[test]
+fn liouville_holds_for_every_law_and_number_of_modes() -> TestResult {
+    for law in LAWS {
+        for modes in 1..=8 {
+            for alpha in [0.0, 1e-4, 1e-3] {
+                for (beta, omega) in [(1e-3, 25.0), (1e-2, 8.0969), (2e-3, 3.0)] {
+                    let set = ParameterSet { alpha, beta, omega, ..Default::default() };
+                    let orbit = Orbit::find(&system(set, modes, law)?, None, 1)?;
+                    let defect = orbit.liouville_defect;
+                    assert!(
+                        defect.is_some_and(|defect| defect < 1e-9),
+                        "{law:?} {modes} {set:?}: {defect:?}"
+                    );
+                }
+            }
+        }
+    }
+    // Where no multiplier is tiny, their product says the same.
+    let system = figure_9(ForceLaw::Exact)?;
+    let orbit = Orbit::find(&system, None, 1)?;
+    let product: Complex<f64> = orbit.multipliers.iter().product();
+    let expected = (system.jacobian(0.0).trace() * system.parameters.period()).exp();
+    assert!((product / expected - 1.0).norm() < 1e-9, "{product} {expected}");
+    Ok(())
+}
+
+struct Differences<'a>(&'a ReducedSystem, usize);
+
+impl ForceVisitor for Differences<'_> {
+    type Output = Result<f64, OrbitError>;
+    /// Largest deviation of the map's derivative from central differences, in comparable components.
+    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
+        let Self(system, periods) = self;
+        let mut map = PeriodMap::new(system, force)?;
+        map.refine()?;
+        let beta = system.parameters.beta;
+        let n = map.dimension();
+        let scales = map.scales().to_vec();
+        let state: Vec<f64> = (0..n).map(|i| 0.01 * scales[i] * (1.0 + i as f64).sin()).collect();
+        let mut image = |state: &[f64], beta: f64| {
+            map.apply(state, beta, periods, |_, _| ())?;
+            Ok::<Vec<f64>, OrbitError>(map.image().to_vec())
+        };
+        let step = 5e-5;
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        let units: Vec<f64> = scales.iter().copied().chain([1.0]).collect();
+        for (j, unit) in units.iter().enumerate() {
+            let mut moved = |steps: f64| {
+                let (mut state, mut beta) = (state.clone(), beta);
+                let value = state.get_mut(j).unwrap_or(&mut beta);
+                *value += steps * step * unit;
+                image(&state, beta)
+            };
+            let [a, b, c, d] = [moved(-2.0)?, moved(-1.0)?, moved(1.0)?, moved(2.0)?];
+            let fourth_order = |i: usize| (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * step);
+            columns.push((0..n).map(fourth_order).collect());
+        }
+        map.apply(&state, beta, periods, |_, _| ())?;
+        let mut worst: f64 = 0.0;
+        for (j, (column, unit)) in columns.iter().zip(&units).enumerate() {
+            for i in 0..n {
+                worst = worst.max((map.derivative(i, j) * unit - column[i]).abs() / scales[i]);
+            }
+        }
+        Ok(worst)
+    }
+}
+
+#[test]
+fn the_derivative_of_the_map_is_that_by_finite_differences() -> TestResult {
+    for law in LAWS {
+        for (modes, periods) in [(1, 1), (2, 2), (4, 1)] {
+            let system = system(ParameterSet { omega: 8.0, ..strong() }, modes, law)?;
+            let worst = system.dispatch(Differences(&system, periods))?;
+            assert!(worst < 1e-8, "{law:?} {modes}: {worst:e}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn without_magnets_everything_is_known_in_closed_form() -> TestResult {
+    for modes in [1, 2, 5] {
+        let set = ParameterSet { c0: 0.0, omega: 7.3, ..strong() };
+        let system = system(set, modes, ForceLaw::Exact)?;
+        let orbit = Orbit::find(&system, Some(&vec![0.0; system.dimension()]), 1)?;
+        let response = LinearResponse::new(&system)?;
+        for (value, expected) in orbit.state.iter().zip(response.state(0.0)) {
+            assert!((value - expected).abs() < 1e-10 * (1.0 + expected.abs()), "{value} {expected}");
+        }
+        let (tip, volts) = (response.tip().norm(), response.voltage.norm());
+        assert!((orbit.measures.v_rms - volts / 2.0_f64.sqrt()).abs() < 1e-10 * volts);
+        assert!((orbit.measures.tip_max - tip).abs() < 1e-4 * tip, "{} {tip}", orbit.measures.tip_max);
+        assert!((orbit.measures.tip_min + tip).abs() < 1e-4 * tip, "{} {tip}", orbit.measures.tip_min);
+        for eigenvalue in eigenvalues(&system)? {
+            let expected = (eigenvalue * system.parameters.period()).exp();
+            let nearest =
+                orbit.multipliers.iter().map(|mu| (mu - expected).norm()).fold(f64::INFINITY, f64::min);
+            assert!(nearest < 1e-11, "{expected}: {nearest:e}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn motions_that_end_within_the_period_are_errors() -> TestResult {
+    let escaping = Orbit::find(&figure_9(ForceLaw::Quadratic)?, Some(&[2.0, 0.0, 0.0, 0.0, 0.0]), 1);
+    assert!(matches!(escaping, Err(OrbitError::Escaped { .. })), "{escaping:?}");
+    let touching = Orbit::find(&figure_9(ForceLaw::Exact)?, Some(&[-0.2, 0.0, 0.0, 0.0, 0.0]), 1);
+    assert!(matches!(touching, Err(OrbitError::Contact { .. })), "{touching:?}");
+    let short = Orbit::find(&figure_9(ForceLaw::Exact)?, Some(&[0.0; 3]), 1);
+    assert!(matches!(short, Err(OrbitError::Integration(_))), "{short:?}");
+    let never = Orbit::find(&figure_9(ForceLaw::Exact)?, None, 0);
+    assert!(matches!(never, Err(OrbitError::Periods { .. })), "{never:?}");
+    Ok(())
+}
