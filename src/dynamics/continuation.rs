@@ -143,11 +143,18 @@ impl Follower {
                 continue;
             }
             let length = (&next.place - &here.place).dot(&here.tangent);
-            if let Some(value) = self.halved(&here, &next, length)? {
-                self.branch.end = BranchEnd::Halved { value };
+            let end = match self.halved(&here, &next, length) {
+                Ok(Some(value)) => Some(BranchEnd::Halved { value }),
+                Ok(None) => {
+                    let found = self.find_bifurcations(&here, &next, length);
+                    found.err().map(|reason| BranchEnd::Lost { reason })
+                }
+                Err(reason) => Some(BranchEnd::Lost { reason }),
+            };
+            if let Some(end) = end {
+                self.branch.end = end;
                 break;
             }
-            self.find_bifurcations(&here, &next, length)?;
             self.branch.points.push(next.point.clone());
             if border {
                 self.branch.end = BranchEnd::Range;
