@@ -9,6 +9,10 @@ use crate::scenario::Scenario;
 
 /// Slices of the voltage's envelope; about as many as a plot has pixels.
 const ENVELOPE_SLICES: usize = 800;
+/// Periods in a slice at least, unless the run is short: fewer, and the edges would beat with the motion.
+const PERIODS_PER_SLICE: f64 = 4.0;
+/// Fewest slices.
+const LEAST_SLICES: usize = 60;
 /// Part of a run that its summary covers: the last tenth.
 const WINDOW: f64 = 0.1;
 
@@ -87,10 +91,12 @@ impl RunJob {
         // Whole pairs of periods, so that means are those of the motion, also when its period has doubled.
         let pairs = (0.5 * WINDOW * t_end / period).ceil().min((0.5 * t_end / period).floor());
         let window = t_end - 2.0 * pairs * period;
+        let slices = (t_end / (PERIODS_PER_SLICE * period)) as usize;
+        let slices = slices.clamp(LEAST_SLICES, ENVELOPE_SLICES);
         let recorder = Recorder {
             trajectory: stage.recorder(),
             strobe: Vec::with_capacity((t_end / period) as usize + 2),
-            collector: Collector::new(window.max(0.0), t_end, ENVELOPE_SLICES),
+            collector: Collector::new(window.max(0.0), t_end, slices),
         };
         Ok(Self { stage, system, t_end, recorder: Some(recorder) })
     }
