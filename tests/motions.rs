@@ -170,7 +170,7 @@ fn a_start_on_an_unstable_motion_is_not_called_that_motion() -> TestResult {
     let strong = system(1e-4, 1e-2, 2.0 * OMEGA_1, ForceLaw::Quadratic)?;
     let orbit = Orbit::find(&strong, None, 1)?;
     assert!(!orbit.stable());
-    // Exactly on the orbit rounding can hold the motion for ever, so a nanometre beside it.
+    // Exactly on the orbit rounding can hold the motion for ever, so it starts a billionth beside it.
     let beside: Vec<f64> = orbit.state.iter().map(|value| value * (1.0 + 1e-9)).collect();
     let reached = reach(&strong, &beside, Horizon::full(100.0))?;
     assert_eq!(reached.motion, Motion::Periodic { periods: 2 });

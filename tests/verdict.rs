@@ -89,7 +89,7 @@ fn figure_9_has_period_2_where_the_forced_motion_has_doubled() -> TestResult {
     assert!(verdict.v_rms.is_some_and(|v_rms| (v_rms - 14.1783).abs() < 1e-4));
     assert_eq!(verdict.peaks[0].label.map(|label| label.to_string()).as_deref(), Some("ω/2"));
     assert!(verdict.coexists.is_empty());
-    // Without damping of 0.988 in two periods gone at t = 600, and with the paper's quadratic law.
+    // With a multiplier of 0.988 the transient outlives t = 600; and the paper's quadratic law is strained.
     assert!(verdict.warnings.iter().any(|warning| matches!(warning, Warning::TransientLeft { .. })));
     assert!(
         verdict.warnings.iter().any(

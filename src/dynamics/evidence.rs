@@ -11,8 +11,6 @@ use super::voltage_spectrum::VoltageSpectrum;
 const SETTLED: f64 = 1e-4;
 /// Share of the mean square in the allowed lines, at least, on a regular motion.
 const LINES: f64 = 0.99;
-/// Largest relative difference between an exponent and that of the multipliers, beyond the interval's half width.
-const SAME_EXPONENT: f64 = 1e-2;
 /// Peaks that are named.
 const NAMED: usize = 4;
 
@@ -127,7 +125,7 @@ impl Evidence {
             (Motion::Periodic { .. }, Sign::Negative) => Some(orbit.is_none_or(|orbit| {
                 let expected = orbit.largest_multiplier().norm().ln() / (period * orbit.periods as f64);
                 says.push_str(&format!("; by the multipliers {}", short(expected)));
-                (exponent.value - expected).abs() <= exponent.half_width + SAME_EXPONENT * expected.abs()
+                exponent.fits(orbit, period)
             })),
             // So weakly stable that the record cannot tell it from neutral.
             (Motion::Periodic { .. }, Sign::Zero) => None,
@@ -192,7 +190,67 @@ pub(super) fn short(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::short;
+    use super::*;
+    use crate::dynamics::poincare::Recurrence;
+
+    fn reached(motion: Motion, recurrence: Recurrence, distance: Option<f64>) -> Reached {
+        Reached {
+            motion,
+            measures: None,
+            state: vec![0.0; 5],
+            time: 600.0,
+            orbit: None,
+            distance,
+            exponent: None,
+            recurrence: Some(recurrence),
+            dimension: None,
+        }
+    }
+
+    fn exponent(value: f64, half_width: f64) -> Exponent {
+        Exponent {
+            value,
+            half_width,
+            second: -1.0,
+            second_half_width: 1e-3,
+            periods: 1000,
+            duration: 300.0,
+            converged: true,
+        }
+    }
+
+    #[test]
+    fn recurrence_agrees_with_multiples_and_contradicts_other_periods() {
+        let says = |motion, period, defect: f64, distance| {
+            let found = Recurrence { period, defect, settled: defect < 1e-4 };
+            Evidence::recurrence(&reached(motion, found, distance)).and_then(|evidence| evidence.agrees)
+        };
+        let two = Motion::Periodic { periods: 2 };
+        assert_eq!(says(two, Some(2), 1e-6, None), Some(true));
+        assert_eq!(says(two, Some(6), 1e-6, None), Some(true));
+        assert_eq!(says(two, Some(1), 1e-6, None), Some(false));
+        // Still settling, it may look like another period, or like none.
+        assert_eq!(says(two, Some(3), 1e-2, Some(1e-2)), None);
+        assert_eq!(says(two, None, 0.1, Some(1e-2)), None);
+        // Arrived there, the points must repeat.
+        assert_eq!(says(two, None, 0.1, Some(1e-6)), Some(false));
+        assert_eq!(says(Motion::Chaotic, Some(3), 1e-6, None), Some(false));
+        assert_eq!(says(Motion::Quasiperiodic, None, 0.5, None), Some(true));
+    }
+
+    #[test]
+    fn an_exponent_of_the_wrong_sign_contradicts() {
+        let says = |motion, value| Evidence::exponent(motion, &exponent(value, 1e-3), None, 0.25).agrees;
+        let one = Motion::Periodic { periods: 1 };
+        assert_eq!((says(one, -0.01), says(one, 0.01)), (Some(true), Some(false)));
+        assert_eq!((says(Motion::Chaotic, 0.3), says(Motion::Chaotic, -0.3)), (Some(true), Some(false)));
+        assert_eq!(
+            (says(Motion::Quasiperiodic, 0.0), says(Motion::Quasiperiodic, 0.3)),
+            (Some(true), Some(false))
+        );
+        // One that says nothing supports nothing.
+        assert_eq!(Evidence::exponent(one, &exponent(0.0, 0.5), None, 0.25).agrees, None);
+    }
 
     #[test]
     fn numbers_have_three_significant_digits() {

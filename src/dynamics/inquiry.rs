@@ -20,9 +20,11 @@ use super::{IntegrationError, Orbit, Outcome, Search};
 use crate::model::{ForceLaw, ReducedSystem};
 
 /// Record of the exponent on a periodic motion: first, and when it is given up as it is (excitation periods).
-const EXPONENT_PERIODS: (usize, usize) = (1024, 8192);
+const EXPONENT_PERIODS: (usize, usize) = (256, 8192);
 /// Half width of that exponent, relative to it, at which it is accurate enough.
 const ACCURATE: f64 = 0.02;
+/// Decay of the tangent vectors over the record after which it is long enough whatever the interval says.
+const LONG: f64 = 200.0;
 /// Integrator steps that count as an excitation period.
 const STEPS_PER_PERIOD: usize = 8;
 /// Distance, over the gap, below which two states are the same.
@@ -94,8 +96,10 @@ impl Inquiry {
                 match work.advance(periods)? {
                     Progress::Going(exponent) => {
                         self.findings.exponent = exponent;
-                        let accurate = exponent
-                            .is_some_and(|exponent| exponent.half_width <= ACCURATE * exponent.value.abs());
+                        let accurate = exponent.is_some_and(|exponent| {
+                            exponent.half_width <= ACCURATE * exponent.value.abs()
+                                || exponent.value.abs() * exponent.duration > LONG
+                        });
                         let enough = done >= EXPONENT_PERIODS.0 && accurate || done >= EXPONENT_PERIODS.1;
                         if enough { Stage::Spectrum } else { Stage::Exponent { work, done } }
                     }

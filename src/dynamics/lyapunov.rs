@@ -13,14 +13,14 @@
 //! is larger, which shows a drift. The blocks are averages over a quarter of the record, so that on regular motions
 //! the interval is much wider than the error; more and shorter blocks would make it wider still.
 //!
-//! What no finite record can show: an exponent smaller than about a hundredth over the length of the record counts
+//! What no finite record can show: which of two exponents it is whose difference over its length is small; an exponent smaller than about a hundredth over the length of the record counts
 //! as zero, and a chaotic transient that outlives the record as chaotic.
 
 use serde::{Deserialize, Serialize};
 
 use super::flow::{self, Flow};
 use super::tangent::Tangents;
-use super::{IntegrationError, Outcome};
+use super::{IntegrationError, Orbit, Outcome};
 use crate::model::ReducedSystem;
 
 /// Blocks the record is cut into.
@@ -37,6 +37,10 @@ pub const LEAST_PERIODS: usize = BLOCKS * LEAST_BLOCK * ALIGNMENT / (ALIGNMENT -
 const NEUTRAL: f64 = 0.01;
 /// Largest half width, relative to the exponent, at which the exponent itself is known and not its sign only.
 pub(super) const KNOWN: f64 = 0.2;
+/// Difference of two exponents, times the record, beyond which the vectors have separated.
+const SEPARATED: f64 = 10.0;
+/// Largest relative difference between an exponent and that of the multipliers, beside the interval.
+const SAME: f64 = 0.02;
 /// Largest half width about zero, relative to the second exponent, that is small against it.
 const APART: f64 = 0.1;
 
@@ -108,6 +112,19 @@ impl Exponent {
         // that nothing in the interval is the decay of a transient, whose slowest rates come in pairs.
         let apart = self.half_width <= APART * -(self.second + self.second_half_width);
         if sign == Sign::Open && self.value.abs() <= self.half_width && apart { Sign::Zero } else { sign }
+    }
+
+    /// Whether the largest exponent is that of the multipliers of `orbit`, where an excitation period lasts `period`.
+    ///
+    /// Exponents whose difference has not separated the tangent vectors within the record are not told apart: it may be
+    /// any of those close to the largest.
+    pub fn fits(&self, orbit: &Orbit, period: f64) -> bool {
+        let exponents = orbit.multipliers.iter().map(|mu| mu.norm().ln() / (period * orbit.periods as f64));
+        let Some(largest) = exponents.clone().next() else { return false };
+        let close = exponents.filter(|exponent| (largest - exponent) * self.duration < SEPARATED);
+        let lowest = close.fold(largest, f64::min);
+        let room = self.half_width + SAME * largest.abs();
+        (lowest - room..=largest + room).contains(&self.value)
     }
 
     /// The sign of the second largest exponent.

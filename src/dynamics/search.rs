@@ -5,7 +5,7 @@
 //!    the last state looks for the periodic motion. It counts as reached when it is stable and the states have arrived
 //!    there, or are near and approach it as fast as its multipliers say.
 //! 2. What does not settle that way is followed further for its Lyapunov exponents. Negative: a periodic motion is
-//!    being approached; it is looked for once more, also with long periods. Zero: quasiperiodic, when the
+//!    being approached; it is looked for once more, also with long periods and from farther away. Zero: quasiperiodic, when the
 //!    stroboscopic points lie on closed curves (or fill a surface and the second exponent is zero as well). Positive:
 //!    chaotic, unless the run is still near an unstable periodic motion. The record is doubled while it does not decide.
 //!
@@ -19,7 +19,7 @@ use super::motion::{Horizon, Motion, Reached, Undecided};
 use super::orbit::Orbit;
 use super::period_map::MOST_PERIODS;
 use super::poincare::Recurrence;
-use super::strobe::Strobe;
+use super::strobe::{NEAR, Strobe};
 use super::tangent::Tangents;
 use super::{Instability, IntegrationError, Outcome};
 use crate::model::ReducedSystem;
@@ -32,6 +32,8 @@ const CHECKPOINTS: [f64; 3] = [0.125, 0.25, 0.5];
 const LEAST_RECORD: f64 = 0.5;
 /// Steps between looks at the time.
 const CHUNK: usize = 32;
+/// Distance from a periodic motion, relative to the amplitude, at which a motion with its exponent is in its reach.
+const FAR: f64 = 0.5;
 /// Half width of a positive exponent, relative to it, with which a chart is content.
 const CERTAIN: f64 = 0.5;
 /// Largest dimension of a set of points that counts as curves, and as a surface.
@@ -150,9 +152,9 @@ impl Search {
         let recurring = self.recurrence.and_then(|found| found.period);
         if self.checkpoints.len() > 1 {
             self.checkpoints.pop();
-            return self.confirm(recurring?).map(|found| self.periodic(found));
+            return self.confirm(recurring?, None).map(|found| self.periodic(found));
         }
-        if let Some(found) = self.confirm(recurring.unwrap_or(1)) {
+        if let Some(found) = self.confirm(recurring.unwrap_or(1), None) {
             return Some(self.periodic(found));
         }
         let period = self.system.parameters.period();
@@ -176,14 +178,15 @@ impl Search {
         let recurrence = self.strobe.recurrence(&self.system);
         let recurring = recurrence.and_then(|found| found.period);
         // The record may still hold how an unstable motion was left.
-        if let Some(found) = recurring.and_then(|periods| self.confirm(periods)) {
+        if let Some(found) = recurring.and_then(|periods| self.confirm(periods, Some(&exponent))) {
             return Some(self.periodic(found));
         }
         let mut dimension = None;
         let why = match exponent.sign() {
             Sign::Negative => {
-                let long = self.strobe.closest_return().and_then(|periods| self.confirm(periods));
-                if let Some(found) = long.or_else(|| self.confirm(1)) {
+                let long = self.strobe.closest_return();
+                let long = long.and_then(|periods| self.confirm(periods, Some(&exponent)));
+                if let Some(found) = long.or_else(|| self.confirm(1, Some(&exponent))) {
                     return Some(self.periodic(found));
                 }
                 if let Some(Recurrence { period: Some(periods), settled: true, .. }) = recurrence {
@@ -224,14 +227,20 @@ impl Search {
     }
 
     /// The stable motion of `periods` excitation periods that the last states have reached, or of twice as many when
-    /// the one of `periods` has doubled; with their distance from it.
-    fn confirm(&self, periods: usize) -> Option<(Orbit, f64)> {
+    /// the one of `periods` has doubled; with their distance from it. An `exponent` that is that of its multipliers
+    /// shows that already the motion as it is contracts like it, so that it need not be as near.
+    fn confirm(&self, periods: usize, exponent: Option<&Exponent>) -> Option<(Orbit, f64)> {
         let last = self.strobe.before_last(0);
         let mut periods = periods;
         loop {
             let orbit = Orbit::find(&self.system, Some(last), periods).ok()?;
             if orbit.stable() {
-                return self.strobe.approach(&orbit).map(|distance| (orbit, distance));
+                let period = self.system.parameters.period();
+                let alike = exponent.is_some_and(|exponent| {
+                    exponent.sign() == Sign::Negative && exponent.fits(&orbit, period)
+                });
+                let near = if alike { FAR } else { NEAR };
+                return self.strobe.approach(&orbit, near).map(|distance| (orbit, distance));
             }
             let doubled = 2 * orbit.periods;
             if orbit.instability() != Some(Instability::PeriodDoubling)

@@ -11,8 +11,9 @@ use crate::model::ReducedSystem;
 pub(super) const KEPT: usize = 512;
 /// Distance from a periodic motion, relative to the amplitude, below which the motion has arrived there.
 const ARRIVED: f64 = 1e-4;
-/// Distance below which a motion that approaches as fast as the multipliers say is in their reach.
-const NEAR: f64 = 0.05;
+/// Distance below which a motion that approaches as fast as the multipliers say is in their reach, when nothing else is
+/// known of it.
+pub(super) const NEAR: f64 = 0.05;
 /// The same for small motions, relative to the gap.
 const NEAR_GAP: f64 = 0.01;
 /// Part of the decay that the multipliers promise which must be seen.
@@ -100,10 +101,10 @@ impl Strobe {
     }
 
     /// Distance of the last states from `orbit`, relative to their amplitude, if they have arrived there, or are near
-    /// and approach it as fast as its multipliers say.
+    /// (within `near`) and approach it as fast as its multipliers say.
     ///
     /// The last state must be the one that the orbit's state was looked for from.
-    pub(super) fn approach(&self, orbit: &Orbit) -> Option<f64> {
+    pub(super) fn approach(&self, orbit: &Orbit, near: f64) -> Option<f64> {
         let returns = (self.len().saturating_sub(1) / orbit.periods + 1).min(RETURNS);
         let quarter = (returns / 4).max(1);
         let distance = |j: usize| self.distance(self.before_last(j * orbit.periods), &orbit.state);
@@ -112,7 +113,7 @@ impl Strobe {
         let amplitude = self.amplitude(KEPT);
         let unit = amplitude.max(SMALL * self.gap);
         let promised = -((returns - quarter) as f64) * orbit.largest_multiplier().norm().ln();
-        let approaches = late <= (NEAR * amplitude).max(NEAR_GAP * self.gap)
+        let approaches = late <= (near * amplitude).max(NEAR_GAP * self.gap)
             && returns >= LEAST_RETURNS
             && (early / late).ln() >= SEEN * promised;
         (approaches || late <= ARRIVED * unit).then_some(late / unit)

@@ -10,9 +10,9 @@ use crate::model::ReducedSystem;
 use crate::theory::spectrum::eigenvalues;
 
 /// Periods of a record: multiples of all periods up to eight where there is room, so that subharmonics fall on bins.
-const PERIODS: [usize; 5] = [840, 420, 210, 120, 60];
+const PERIODS: [usize; 7] = [840, 420, 210, 120, 60, 24, 12];
 /// Samples of a record at most.
-const MOST_SAMPLES: usize = 1 << 17;
+const MOST_SAMPLES: usize = 1 << 15;
 /// Sampling frequency over the higher of the excitation's and the second own frequency.
 const OVERSAMPLING: f64 = 8.0;
 /// Amplitude, relative to the largest, from which a line is a peak.
