@@ -13,8 +13,9 @@
 //! is larger, which shows a drift. The blocks are averages over a quarter of the record, so that on regular motions
 //! the interval is much wider than the error; more and shorter blocks would make it wider still.
 //!
-//! What no finite record can show: which of two exponents it is whose difference over its length is small; an exponent smaller than about a hundredth over the length of the record counts
-//! as zero, and a chaotic transient that outlives the record as chaotic.
+//! What no finite record can show: two exponents whose difference times its length is small are not told apart, so the
+//! largest may come out as the next one, with a narrow interval; one smaller than about a hundredth over its length
+//! counts as zero; and a chaotic transient that outlives it counts as chaotic.
 
 use serde::{Deserialize, Serialize};
 

@@ -5,9 +5,10 @@
 //!    the last state looks for the periodic motion. It counts as reached when it is stable and the states have arrived
 //!    there, or are near and approach it as fast as its multipliers say.
 //! 2. What does not settle that way is followed further for its Lyapunov exponents. Negative: a periodic motion is
-//!    being approached; it is looked for once more, also with long periods and from farther away. Zero: quasiperiodic, when the
-//!    stroboscopic points lie on closed curves (or fill a surface and the second exponent is zero as well). Positive:
-//!    chaotic, unless the run is still near an unstable periodic motion. The record is doubled while it does not decide.
+//!    being approached; it is looked for once more, also with long periods and from farther away. Zero: quasiperiodic,
+//!    when the stroboscopic points lie on closed curves (or fill a surface and the second exponent is zero as well).
+//!    Positive: chaotic, unless the run is still near an unstable periodic motion. The record is doubled while it does
+//!    not decide.
 //!
 //! A chaotic transient that outlives the record counts as chaotic, and a periodic motion of more than 64 excitation
 //! periods is never found.
