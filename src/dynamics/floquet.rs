@@ -1,7 +1,7 @@
 //! Floquet multipliers of a periodic motion, and what they say about how it loses stability.
 
-use nalgebra::{Complex, DMatrix, Schur};
-use serde::Serialize;
+use nalgebra::{Complex, DMatrix, DVector, Schur};
+use serde::{Deserialize, Serialize};
 
 use super::OrbitError;
 
@@ -16,7 +16,7 @@ const SHIFTS: [f64; 4] = [0.0, 1.37, 0.71, 2.93];
 const REAL: f64 = 1e-9;
 
 /// How a periodic motion loses its stability, by the multiplier that leaves the unit circle first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Instability {
     /// Through +1: the motion meets another one and both end (or exchange stability, in a symmetric system).
@@ -78,6 +78,22 @@ pub fn multipliers(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, OrbitErro
         .ok_or(OrbitError::Multipliers)?;
     values.sort_by(|a, b| b.norm_sqr().total_cmp(&a.norm_sqr()).then(b.im.total_cmp(&a.im)));
     Ok(values)
+}
+
+/// The unit eigenvector of `matrix` to the real eigenvalue nearest to `multiplier`, by inverse iteration.
+///
+/// # Errors
+/// [`OrbitError::Singular`] when the iteration breaks down.
+pub(super) fn eigenvector(matrix: &DMatrix<f64>, multiplier: f64) -> Result<DVector<f64>, OrbitError> {
+    let n = matrix.nrows();
+    // Away from the exact singularity, by less than the multiplier is known to.
+    let moved = matrix - DMatrix::identity(n, n) * (multiplier * (1.0 + 1e-9));
+    let solver = moved.lu();
+    let mut direction = DVector::from_element(n, 1.0);
+    for _ in 0..4 {
+        direction = solver.solve(&direction).ok_or(OrbitError::Singular)?.normalize();
+    }
+    if direction.iter().all(|value| value.is_finite()) { Ok(direction) } else { Err(OrbitError::Singular) }
 }
 
 /// Eigenvalues of `matrix`, computed on a diagonal moved by `shift`.

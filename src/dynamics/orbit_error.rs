@@ -60,4 +60,10 @@ pub enum OrbitError {
         /// Largest number allowed.
         most: usize,
     },
+    /// A rectangle of parameters is empty, or its sides are the same parameter.
+    #[error("the plane's range of {parameter} must grow, and its two parameters must differ")]
+    Plane {
+        /// Name of a parameter concerned.
+        parameter: &'static str,
+    },
 }
