@@ -7,7 +7,7 @@
 //! * [`period_map`] is the stroboscopic map with its exact derivative, [`newton`] finds its fixed points, [`orbit`]
 //!   and [`floquet`] say what they are.
 //! * [`boundary`] and [`tongue`] find where the forced motion loses its stability, [`continuation`] follows periodic
-//!   motions in any parameter.
+//!   motions in any parameter, [`curves`] their bifurcations in any two.
 
 mod arclength;
 pub mod boundary;

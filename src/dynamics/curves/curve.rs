@@ -123,6 +123,8 @@ pub struct Curve {
     pub periods: usize,
     /// Its points in order; in the plane's first parameter the curve grows as it passes its start.
     pub points: Vec<CurvePoint>,
+    /// Which of them is the start.
+    pub origin: usize,
     /// The points of codimension two on it, in order.
     pub special: Vec<SpecialPoint>,
     /// Why it ends before its first point and after its last one.
@@ -156,6 +158,7 @@ mod tests {
             kind: Instability::PeriodDoubling,
             periods: 1,
             points: vec![CurvePoint { at, state: state.clone(), v_rms: 1.5 }],
+            origin: 0,
             special: vec![SpecialPoint { kind: SpecialKind::OneToTwo, at, state, multipliers, after: 1 }],
             ends: [CurveEnd::Window, CurveEnd::Lost { reason: "the magnets touch".into() }],
         };

@@ -50,12 +50,6 @@ impl Doubling {
         let test = left.dot(&(third * (determinant / 6.0) + second(&bent) * 0.5));
         Ok(Self { test, right, left })
     }
-
-    /// c times <p, q>^2 det(1 - M): its sign, turned at a multiplier beyond 1, says super- or subcritical.
-    #[cfg(test)]
-    pub(super) fn signed(&self) -> f64 {
-        self.test * self.left.dot(&self.right)
-    }
 }
 
 /// The map's derivative, scaled, at `state` moved by `offset` (scaled).

@@ -110,7 +110,7 @@ mod tests {
         };
         let points = vec![point(0.0), point(0.5), point(1.0)];
         let (kind, ends) = (Instability::Fold, [CurveEnd::Window, CurveEnd::Window]);
-        let curve = Curve { kind, periods: 1, points, special: Vec::new(), ends };
+        let curve = Curve { kind, periods: 1, points, origin: 0, special: Vec::new(), ends };
         assert!(known.add(curve.clone()));
         assert!(!known.add(curve));
         let between = point(0.3);

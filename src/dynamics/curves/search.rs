@@ -19,8 +19,9 @@ use crate::model::reduced::ForceVisitor;
 use crate::model::{Parameter, ReducedSystem, RestForce};
 use crate::theory::spectrum::eigenvalues;
 
-/// Most points of a branch along a line.
-const MOST_POINTS: usize = 800;
+/// Most points of a branch along a line: a resonance can be followed up without end, and beyond about this many the tip
+/// moves by more than the beam's length.
+const MOST_POINTS: usize = 300;
 /// Most lines through the centres of resonances.
 const MOST_CENTRES: usize = 12;
 
@@ -225,8 +226,9 @@ fn forced_state(system: &ReducedSystem) -> Result<Vec<f64>, OrbitError> {
         fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
             let mut solver = OrbitSolver::new(self.0, force)?;
             let rest = Forced::at_rest(&mut solver)?;
-            let there = rest.march_to(&mut solver, self.0.parameters.beta)?;
-            there.map(|forced| forced.state).ok_or(OrbitError::Singular)
+            let beta = self.0.parameters.beta;
+            let there = rest.march_to(&mut solver, beta)?;
+            there.map(|forced| forced.state).ok_or(OrbitError::MotionEnds { beta })
         }
     }
     system.dispatch(Grow(system))

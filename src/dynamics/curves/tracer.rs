@@ -30,7 +30,9 @@ const TURN: (f64, f64) = (0.12, 0.3);
 const DOUBTFUL: f64 = 0.2;
 /// Most points of one side of a curve.
 const MOST_POINTS: usize = 600;
-/// Distance from the start of the curve's second visit to it.
+/// Distance in the window at which a border of what can be built explains that a curve is lost.
+const BESIDE: f64 = 1e-3;
+/// Distance in the window below which two places of a curve are one.
 const SAME: f64 = 1e-6;
 
 /// Traces the curve of bifurcations through `start` within the `plane`, to both sides. The device, but for the plane's
@@ -54,24 +56,34 @@ pub fn trace_curve(system: &ReducedSystem, start: &Start, plane: &Plane) -> Resu
     let place = surface.correct(&place, &near.tangent, condition, &near)?;
     let origin = Station::read(&mut surface, place, condition, None)?;
     let mut tracer = Tracer { surface, plane };
-    let (mut points, mut special, mut ends) = (Vec::new(), Vec::new(), Vec::new());
     let back = tracer.side(origin.clone().reversed())?;
-    let before = back.points.len();
-    points.extend(back.points.into_iter().rev());
-    special.extend(
-        back.special.into_iter().rev().map(|point| SpecialPoint { after: before + 1 - point.after, ..point }),
-    );
-    points.push(origin.point(&tracer.surface));
-    ends.push(back.end);
-    let forth = match ends[0] {
+    let middle = origin.point(&tracer.surface);
+    let forth = match back.end {
         CurveEnd::Closed => Side { points: Vec::new(), special: Vec::new(), end: CurveEnd::Closed },
         _ => tracer.side(origin)?,
     };
-    points.extend(forth.points);
-    special
-        .extend(forth.special.into_iter().map(|point| SpecialPoint { after: before + point.after, ..point }));
-    let [first, last] = [ends.remove(0), forth.end];
-    Ok(Curve { kind: start.kind, periods: start.periods, points, special, ends: [first, last] })
+    let before = back.points.len();
+    let mut special: Vec<SpecialPoint> = Vec::new();
+    let backwards = |point: SpecialPoint| SpecialPoint { after: before + 1 - point.after, ..point };
+    let forwards = |point: SpecialPoint| SpecialPoint { after: before + point.after, ..point };
+    let sides =
+        (back.special.into_iter().rev().map(backwards)).chain(forth.special.into_iter().map(forwards));
+    for point in sides {
+        // A start that is one itself is met from both sides.
+        let known =
+            |other: &SpecialPoint| other.kind == point.kind && plane.distance(other.at, point.at) < SAME;
+        if !special.iter().any(known) {
+            special.push(point);
+        }
+    }
+    Ok(Curve {
+        kind: start.kind,
+        periods: start.periods,
+        points: back.points.into_iter().rev().chain([middle]).chain(forth.points).collect(),
+        origin: before,
+        special,
+        ends: [back.end, forth.end],
+    })
 }
 
 /// One side of a curve, without its start.
@@ -102,7 +114,8 @@ impl Tracer<'_> {
                     continue;
                 }
                 Err(reason) => {
-                    side.end = CurveEnd::Lost { reason: reason.to_string() };
+                    let reason = self.obstacle(&here).unwrap_or(reason).to_string();
+                    side.end = CurveEnd::Lost { reason };
                     break;
                 }
                 Ok(next) => next,
@@ -146,7 +159,7 @@ impl Tracer<'_> {
     /// The station a `step` on, and whether it is on the window's border.
     ///
     /// # Errors
-    /// Also [`OrbitError::NoConvergence`] when the step is too long to be sure that it is the same curve.
+    /// Also [`OrbitError::Sharp`] when the step is too long to be sure that it is the same curve.
     fn advance(
         &mut self,
         here: &Station,
@@ -181,7 +194,21 @@ impl Tracer<'_> {
         if straight && moved <= DOUBTFUL * step {
             return Ok((next, reached));
         }
-        Err(OrbitError::NoConvergence { iterations: 1, residual: moved })
+        Err(OrbitError::Sharp)
+    }
+
+    /// Why there is no device beside `here`, if there is none: towards such a border the orbits change so fast that
+    /// steps become too short before it is reached.
+    fn obstacle(&mut self, here: &Station) -> Option<OrbitError> {
+        let mut found = None;
+        for (k, axis) in self.plane.axes().iter().enumerate() {
+            for side in [-BESIDE, BESIDE] {
+                let mut at = here.at();
+                at[k] = (at[k] + side * axis.width()).clamp(axis.range.0, axis.range.1);
+                found = found.or(self.surface.family.set(at).err());
+            }
+        }
+        found
     }
 
     /// The station at the curve's point in the hyperplane through `guess` with the `normal`.
