@@ -11,7 +11,7 @@
 //!   [`voltage_spectrum`] its lines, which [`spectral_label`] names, and [`verdict`] weighs all of it.
 //! * [`forced`] is the motion that grows out of rest with the excitation.
 //! * [`boundary`] and [`tongue`] find where the forced motion loses its stability, [`continuation`] follows periodic
-//!   motions in any parameter.
+//!   motions in any parameter, [`curves`] their bifurcations in any two.
 
 mod arclength;
 pub mod boundary;
@@ -19,6 +19,7 @@ mod bracket;
 pub mod branch;
 pub mod collocation;
 pub mod continuation;
+pub mod curves;
 pub mod evidence;
 pub mod floquet;
 mod flow;
@@ -33,6 +34,7 @@ pub mod orbit;
 pub mod orbit_error;
 pub mod outcome;
 pub mod period_map;
+pub mod plane;
 pub mod poincare;
 pub mod rk4;
 mod search;
@@ -53,6 +55,7 @@ pub use boundary::{CriticalExcitation, critical_excitation, largest_multipliers}
 pub use branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course};
 pub use collocation::{Collocation, Settings};
 pub use continuation::{follow_branch, follow_doubled};
+pub use curves::{Curve, CurveEnd, Line, SpecialKind, Start, find_curves, trace_curve};
 pub use floquet::Instability;
 pub use forced::ForcedMotion;
 pub use inquiry::Inquiry;
@@ -63,6 +66,7 @@ pub use orbit::Orbit;
 pub use orbit_error::OrbitError;
 pub use outcome::{IntegrationError, Outcome};
 pub use period_map::PeriodMap;
+pub use plane::{Axis, Plane};
 pub use search::Search;
 pub use tongue::{Tongue, trace_tongue};
 pub use trajectory::Trajectory;
