@@ -2,7 +2,7 @@
 //!
 //! * [`rk4`] repeats the paper's own runs, step by step.
 //! * [`collocation`] is the integrator behind everything else: the linear beam and circuit are carried by their
-//!   exact propagator, the magnet's rest force by Gauss-Legendre collocation; [`linear`] and [`tables`] prepare it.
+//!   exact [`propagator`], the magnet's rest force by Gauss-Legendre collocation; [`linear`] and [`tables`] prepare it.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`poincare`] and [`summary`] read them.
 //! * [`period_map`] is the stroboscopic map with its exact derivative, [`newton`] finds its fixed points, [`orbit`]
 //!   and [`floquet`] say what they are.
@@ -23,7 +23,9 @@ pub mod orbit_error;
 pub mod outcome;
 pub mod period_map;
 pub mod poincare;
+pub mod propagator;
 pub mod rk4;
+mod rule;
 pub mod summary;
 pub mod tables;
 pub mod tongue;

@@ -98,7 +98,7 @@ impl Tongue {
 ///
 /// # Errors
 /// [`OrbitError::Theory`] where the coupled modes do not exist, [`OrbitError::Model`] when the centre is out of
-/// omega's range, [`super::IntegrationError::TooStiff`] and [`OrbitError::Multipliers`].
+/// omega's range, and [`OrbitError::Multipliers`].
 pub fn trace_tongue(
     system: &ReducedSystem,
     resonance: Resonance,
