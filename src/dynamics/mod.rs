@@ -15,6 +15,7 @@ mod bracket;
 pub mod branch;
 pub mod collocation;
 pub mod continuation;
+mod extremes;
 pub mod floquet;
 pub mod linear;
 pub mod newton;
