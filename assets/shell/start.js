@@ -54,14 +54,34 @@ function missing() {
   return null;
 }
 
+// Compiled once, for the page and its workers.
+async function compiled(address) {
+  const response = await fetch(address);
+  if (!response.ok) throw new Error(`${address}: ${response.status} ${response.statusText}`);
+  try {
+    return await WebAssembly.compileStreaming(response.clone());
+  } catch {
+    // Some hosts send the wrong type for .wasm files.
+    return WebAssembly.compile(await response.arrayBuffer());
+  }
+}
+
+let newWorker = () => null;
+
 async function start() {
   const lacking = missing();
   if (lacking) {
     fail("This browser cannot show Harvester Lab", `${lacking} is missing or switched off.`);
     return;
   }
-  const app = await import(element("module").href);
-  await app.default({ module_or_path: element("wasm").href });
+  const script = element("module").href;
+  const [app, wasm] = await Promise.all([import(script), compiled(element("wasm").href)]);
+  newWorker = () => {
+    const worker = new Worker(element("worker").src, { type: "module" });
+    worker.postMessage({ script, wasm });
+    return worker;
+  };
+  await app.default({ module_or_path: wasm });
   const keep = () => {
     if (root.dataset.phase === "ready") app.keep();
   };
@@ -81,6 +101,13 @@ window.harvesterShell = Object.freeze({
     if (root.dataset.phase === "loading") root.dataset.phase = "ready";
   },
   fail,
+  worker: () => {
+    try {
+      return newWorker();
+    } catch {
+      return null;
+    }
+  },
 });
 element("copy-state").addEventListener("click", copyState);
 element("reload").addEventListener("click", () => location.reload());

@@ -14,6 +14,22 @@ const REACH: f64 = 1.6;
 /// Points of a boundary.
 const POINTS: usize = 241;
 
+/// Upper ends that the excitation axis may have.
+const CEILINGS: [f64; 7] = [0.003, 0.0075, 0.015, 0.04, 0.08, 0.15, 0.2];
+/// The lowest ceiling of each window, at which its tongue is seen.
+const fn least_ceiling(window: MapWindow) -> f64 {
+    match window {
+        MapWindow::First | MapWindow::Sum => 0.015,
+        MapWindow::All | MapWindow::Second => 0.04,
+    }
+}
+
+/// The upper end of the excitation axis in a window that shows `beta`.
+pub(super) fn ceiling(window: MapWindow, beta: f64) -> f64 {
+    let wanted = (1.15 * beta).max(least_ceiling(window));
+    CEILINGS.into_iter().find(|ceiling| *ceiling >= wanted).unwrap_or(0.2)
+}
+
 /// Everything the boundaries depend on: the device without its excitation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Structure {

@@ -14,6 +14,7 @@ mod caption;
 mod clock;
 mod command;
 mod comparison;
+pub mod crew;
 mod curves;
 mod figures;
 mod map;
@@ -22,9 +23,13 @@ mod reading;
 mod report;
 mod session;
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use egui::{Margin, Ui};
 
 use command::{Command, Commands};
+use crew::Crew;
 use panels::Context;
 use session::{Session, Status};
 use view::{MapWindow, Tab, View};
@@ -37,19 +42,20 @@ const STACKED: f32 = 760.0;
 pub struct App {
     view: View,
     session: Session,
+    crew: Rc<RefCell<Crew>>,
     notice: Option<String>,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool)>,
 }
 
 impl App {
-    /// A new application, continuing what an earlier session `stored` when that is valid.
-    pub fn new(context: &egui::Context, stored: Option<&str>) -> Self {
+    /// A new application with its `crew`, continuing what an earlier session `stored` when that is valid.
+    pub fn new(context: &egui::Context, stored: Option<&str>, crew: Rc<RefCell<Crew>>) -> Self {
         fonts::install(context);
         let (view, notice) = View::restore(stored);
         let mut session = Session::default();
         session.ask(&view.scenario);
-        let mut app = Self { view, session, notice, styled: None };
+        let mut app = Self { view, session, crew, notice, styled: None };
         app.style(context);
         app
     }
@@ -57,6 +63,7 @@ impl App {
     /// Work that goes on while the page is hidden.
     pub fn logic(&mut self, context: &egui::Context) {
         self.session.work();
+        self.study(context);
         if self.view.tab == Tab::Paper {
             let figure = figures::figure(self.view.figure);
             if self.session.compare(figure, &self.view.scenario) {
@@ -68,12 +75,29 @@ impl App {
         }
     }
 
+    /// Asks the crew for what the page shows beside the run, and lets it go on.
+    fn study(&mut self, context: &egui::Context) {
+        let mut crew = self.crew.borrow_mut();
+        crew.studies.follow(&self.view, &self.session);
+        crew.tick(context.input(|input| input.pointer.any_down()));
+        if crew.works_on_this_thread() && crew.is_busy() {
+            context.request_repaint();
+        }
+    }
+
     /// Draws one frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
         let mut commands = Commands::new();
-        let mut context = Context { view: &self.view, session: &self.session, commands: &mut commands };
+        let crew = self.crew.borrow();
+        let mut context = Context {
+            view: &self.view,
+            session: &self.session,
+            studies: &crew.studies,
+            commands: &mut commands,
+        };
         draw(&mut context, self.notice.as_deref(), ui);
+        drop(crew);
         let asked = !commands.is_empty();
         for command in commands {
             self.carry_out(command);

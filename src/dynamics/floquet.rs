@@ -1,7 +1,7 @@
 //! Floquet multipliers of a periodic motion, and what they say about how it loses stability.
 
 use nalgebra::{Complex, DMatrix, Schur};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::OrbitError;
 
@@ -16,7 +16,7 @@ const SHIFTS: [f64; 4] = [0.0, 1.37, 0.71, 2.93];
 const REAL: f64 = 1e-9;
 
 /// How a periodic motion loses its stability, by the multiplier that leaves the unit circle first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Instability {
     /// Through +1: the motion meets another one and both end (or exchange stability, in a symmetric system).

@@ -6,6 +6,7 @@
 //! * [`trajectory`] keeps the steps of a run for dense output; [`poincare`] and [`summary`] read them.
 //! * [`period_map`] is the stroboscopic map with its exact derivative, [`newton`] finds its fixed points, [`orbit`]
 //!   and [`floquet`] say what they are.
+//! * [`sweep`] carries a motion from one value of a parameter to the next.
 //! * [`boundary`] and [`tongue`] find where the forced motion loses its stability, [`continuation`] follows periodic
 //!   motions in any parameter.
 
@@ -28,6 +29,7 @@ pub mod propagator;
 pub mod rk4;
 mod rule;
 pub mod summary;
+pub mod sweep;
 pub mod tables;
 pub mod tongue;
 pub mod trajectory;

@@ -7,7 +7,7 @@
 //! the window, and where the crossing multiplier changes its kind.
 
 use nalgebra::Complex;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::OrbitError;
 use super::boundary::{CriticalExcitation, search};
@@ -35,7 +35,7 @@ const MAX_POINTS: usize = 400;
 const ON_CIRCLE: f64 = 1e-4;
 
 /// The part of the plane in which a tongue is traced.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     /// Largest distance of omega from the resonance's centre (dimensionless).
     pub span: f64,
@@ -51,7 +51,7 @@ impl Default for Window {
 }
 
 /// A point of a tongue's border.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TonguePoint {
     /// Excitation frequency (dimensionless).
     pub omega: f64,
@@ -60,7 +60,7 @@ pub struct TonguePoint {
 }
 
 /// Why a flank is not followed any further.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FlankEnd {
     /// The window's border.
@@ -74,7 +74,7 @@ pub enum FlankEnd {
 }
 
 /// The border of a tongue.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Tongue {
     /// How the forced motion becomes unstable across it.
     pub instability: Instability,

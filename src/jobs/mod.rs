@@ -1,8 +1,11 @@
 //! Questions and answers: one request type for the native command, JavaScript and the page, and the sliced run
 //! behind the page's plots.
 
+pub mod foreman;
 pub mod request;
 pub mod run;
+pub mod study;
+pub mod work;
 
 mod answer;
 mod boundary;

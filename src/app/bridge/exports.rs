@@ -1,8 +1,19 @@
 //! The functions behind `window.harvester`.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use js_sys::{Function, Promise};
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 use super::{RUNNING, Running};
+use crate::app::crew::Crew;
+
+thread_local! {
+    /// What resolves and rejects the promises of requests under way.
+    static PROMISES: RefCell<HashMap<usize, (Function, Function)>> = RefCell::default();
+}
 
 /// Runs `with` on the running app. It fails before the start, and after a crash inside a frame.
 fn running<T>(with: impl FnOnce(&Running) -> Result<T, String>) -> Result<T, JsError> {
@@ -36,13 +47,44 @@ pub fn load(json: &str) -> Result<(), JsError> {
     })
 }
 
-/// Answers one request of the solver, as the native command does.
+/// Answers one request of the solver, as the native command does, in a worker. The promise is rejected with one line
+/// that names the field, its value and the allowed range.
 ///
 /// # Errors
-/// One line that names the field, its value and the allowed range.
+/// When the app is not running.
 #[wasm_bindgen]
-pub async fn solve(json: String) -> Result<String, JsError> {
-    crate::jobs::solve(&json).map_err(|message| JsError::new(&message))
+pub fn solve(json: String) -> Result<Promise, JsError> {
+    running(|running| {
+        let number = running.crew.try_borrow_mut().map_err(|_| BUSY)?.ask(json).ok_or(BUSY)?;
+        running.context.request_repaint();
+        Ok(Promise::new(&mut |resolve, reject| {
+            PROMISES.with_borrow_mut(|promises| promises.insert(number, (resolve, reject)));
+        }))
+    })
+}
+
+/// Settles the promises whose answers have come in.
+pub(super) fn settle(crew: &mut Crew) {
+    for (number, answer) in crew.take_answers() {
+        let promise = PROMISES.with_borrow_mut(|promises| promises.remove(&number));
+        let Some((resolve, reject)) = promise else { continue };
+        // A promise's own functions do not fail.
+        let _ = match answer {
+            Ok(json) => resolve.call1(&JsValue::NULL, &JsValue::from_str(&json)),
+            Err(message) => reject.call1(&JsValue::NULL, &JsError::new(&message).into()),
+        };
+    }
+}
+
+/// The same for the app that is running.
+pub(super) fn settle_running() {
+    RUNNING.with_borrow(|slot| {
+        if let Some(running) = slot
+            && let Ok(mut crew) = running.crew.try_borrow_mut()
+        {
+            settle(&mut crew);
+        }
+    });
 }
 
 /// Times of the last frames as JSON.

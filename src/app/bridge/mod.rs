@@ -9,17 +9,21 @@ pub mod exports;
 mod frames;
 mod shell;
 mod storage;
+pub mod workers;
 
-use std::{cell::RefCell, rc::Rc};
+use std::cell::RefCell;
+use std::rc::{Rc, Weak};
 
 use wasm_bindgen::JsCast as _;
 
 use super::App;
+use super::crew::{Crew, Inline, Workers};
 use frames::{Probe, Recorder};
 
 /// What the exported functions need to reach.
 struct Running {
     app: Rc<RefCell<App>>,
+    crew: Rc<RefCell<Crew>>,
     context: egui::Context,
     recorder: Recorder,
     keeper: Rc<RefCell<storage::Keeper>>,
@@ -29,8 +33,12 @@ thread_local! {
     static RUNNING: RefCell<Option<Running>> = const { RefCell::new(None) };
 }
 
-/// Starts the app on the element with the id `canvas`. Failures are shown on the page, not returned.
+/// Starts the app on the element with the id `canvas`. Failures are shown on the page, not returned. In a worker, which
+/// has no page, nothing happens: it waits for orders.
 pub fn start() {
+    if web_sys::window().is_none() {
+        return;
+    }
     std::panic::set_hook(Box::new(|info| shell::fail("Harvester Lab stopped", &info.to_string())));
     let canvas = web_sys::window()
         .and_then(|window| window.document())
@@ -53,6 +61,22 @@ pub fn start() {
     });
 }
 
+/// A crew of web workers, or of this thread where there can be none.
+fn crew(context: egui::Context) -> Rc<RefCell<Crew>> {
+    let taken: workers::Taken = Rc::new(move |crew| {
+        exports::settle(&mut crew.borrow_mut());
+        context.request_repaint();
+    });
+    Rc::new_cyclic(|crew: &Weak<RefCell<Crew>>| {
+        let hired = workers::WebWorkers::hire(crew.clone(), taken);
+        let workers = hired.map_or_else(
+            || Box::new(Inline::default()) as Box<dyn Workers>,
+            |workers| Box::new(workers) as Box<dyn Workers>,
+        );
+        RefCell::new(Crew::new(workers))
+    })
+}
+
 /// The app as eframe sees it.
 struct Page {
     app: Rc<RefCell<App>>,
@@ -64,12 +88,14 @@ struct Page {
 impl Page {
     fn new(context: &egui::Context) -> Self {
         let keeper = storage::Keeper::open();
-        let app = Rc::new(RefCell::new(App::new(context, keeper.stored())));
+        let crew = crew(context.clone());
+        let app = Rc::new(RefCell::new(App::new(context, keeper.stored(), Rc::clone(&crew))));
         let keeper = Rc::new(RefCell::new(keeper));
         let recorder = Recorder::default();
         context.add_plugin(Probe::new(recorder.clone()));
         RUNNING.set(Some(Running {
             app: Rc::clone(&app),
+            crew,
             context: context.clone(),
             recorder: recorder.clone(),
             keeper: Rc::clone(&keeper),
@@ -83,6 +109,7 @@ impl eframe::App for Page {
         self.recorder.total(frame.info().cpu_usage);
         let mut app = self.app.borrow_mut();
         app.logic(ctx);
+        exports::settle_running();
         self.keeper.borrow_mut().tick(&app, ctx);
     }
 

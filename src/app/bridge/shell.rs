@@ -1,5 +1,6 @@
-//! The two calls into the script of the page (`assets/shell/start.js`).
+//! The calls into the script of the page (`assets/shell/start.js`).
 
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
@@ -11,4 +12,8 @@ extern "C" {
     /// Replaces the page by a screen that says what happened and offers the stored state.
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn fail(title: &str, detail: &str);
+
+    /// A new worker that has been told which module to run, or null.
+    #[wasm_bindgen(js_namespace = harvesterShell)]
+    pub(super) fn worker() -> JsValue;
 }

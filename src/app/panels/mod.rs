@@ -16,6 +16,7 @@ pub(super) mod top_bar;
 pub(super) mod verdict;
 
 use super::command::{Command, Commands};
+use super::crew::Studies;
 use super::session::{Session, Shown, Status};
 use super::view::{Panel, View};
 use super::widgets::{Card, Icon};
@@ -24,6 +25,7 @@ use super::widgets::{Card, Icon};
 pub(super) struct Context<'a> {
     pub view: &'a View,
     pub session: &'a Session,
+    pub studies: &'a Studies,
     pub commands: &'a mut Commands,
 }
 

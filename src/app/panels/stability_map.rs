@@ -5,22 +5,13 @@ use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
 use crate::app::command::Command;
-use crate::app::map::Boundaries;
+use crate::app::map::{Boundaries, ceiling};
 use crate::app::view::{MapWindow, Panel};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
+use crate::jobs::study::tongues::Traced;
 use crate::model::Parameter;
 use crate::theory::Resonance;
-
-/// Upper ends that the excitation axis may have.
-const CEILINGS: [f64; 7] = [0.003, 0.0075, 0.015, 0.04, 0.08, 0.15, 0.2];
-/// The lowest ceiling of each window, at which its tongue is seen.
-const fn least_ceiling(window: MapWindow) -> f64 {
-    match window {
-        MapWindow::First | MapWindow::Sum => 0.015,
-        MapWindow::All | MapWindow::Second => 0.04,
-    }
-}
 
 /// Draws the map's card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -53,7 +44,14 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         ];
         chips(ui, "Resonance", &mut window, &windows);
         ui.add_space(6.0);
-        legend::legend(ui, &[(Series::Published, "published"), (Series::Coupled, "coupled modes")]);
+        legend::legend(
+            ui,
+            &[
+                (Series::Published, "published"),
+                (Series::Coupled, "coupled modes"),
+                (Series::Exact, "exact (Floquet)"),
+            ],
+        );
     });
     if window != context.view.map {
         context.commands.push(Command::LookAt(window));
@@ -64,8 +62,7 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let p = context.view.scenario.parameters;
     let window = context.view.map;
     let (low, high) = boundaries.range(window);
-    let wanted = (1.15 * p.beta).max(least_ceiling(window));
-    let ceiling = CEILINGS.into_iter().find(|ceiling| *ceiling >= wanted).unwrap_or(0.2);
+    let ceiling = ceiling(window, p.beta);
     let (x, y) = (Axis::new("excitation frequency", "ω"), Axis::new("excitation amplitude", "β"));
     let plot = plot_style::plot(ui, ("stability map", window), &x, &y)
         .allow_drag(false)
@@ -76,14 +73,23 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         let p = &pinned.scenario.parameters;
         PlotPoint::new(p.omega, p.beta)
     });
+    let (exact, current) = exact_borders(context, boundaries);
     let shown = plot.show(ui, |plot| {
         plot.set_plot_bounds(PlotBounds::from_min_max([low, -0.02 * ceiling], [high, ceiling]));
-        for tongue in &boundaries.tongues {
-            plot_style::area_above(plot, Series::Coupled, &tongue.coupled, ceiling);
+        for (border, tongue) in exact.iter().zip(&boundaries.tongues) {
+            if current && !border.is_empty() {
+                plot_style::area_above(plot, Series::Exact, border, ceiling);
+            } else {
+                plot_style::area_above(plot, Series::Coupled, &tongue.coupled, ceiling);
+            }
         }
         for tongue in &boundaries.tongues {
             plot_style::series(plot, Series::Published, "published boundary", &tongue.published);
             plot_style::series(plot, Series::Coupled, "coupled-mode boundary", &tongue.coupled);
+        }
+        let kind = if current { Series::Exact } else { Series::Ghost };
+        for border in &exact {
+            plot_style::series(plot, kind, "exact boundary", border);
         }
         label_regions(plot, boundaries, window, ceiling);
         plot_style::points(plot, Series::Ghost, "pinned", pinned.as_slice());
@@ -96,6 +102,19 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
             scenario.parameters.beta = round(beta.clamp(0.0, ceiling), 4);
         });
     }
+}
+
+/// The exact tongues' borders in the order of the boundaries' tongues, and whether they belong to the device in view.
+fn exact_borders(context: &Context<'_>, boundaries: &Boundaries) -> (Vec<Vec<PlotPoint>>, bool) {
+    let found = context.studies.tongues(&boundaries.structure);
+    let border = |resonance| match found.map(|(study, _)| study.tongue(resonance)) {
+        Some(Traced::Done(Some(tongue))) => {
+            tongue.points.iter().map(|point| PlotPoint::new(point.omega, point.beta)).collect()
+        }
+        _ => Vec::new(),
+    };
+    let borders = boundaries.tongues.iter().map(|tongue| border(tongue.resonance)).collect();
+    (borders, found.is_some_and(|(_, current)| current))
 }
 
 /// Names of the regions where there is room for them.

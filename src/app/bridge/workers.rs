@@ -1,0 +1,127 @@
+//! Web workers as the crew's hands. Each runs this same module, started by `assets/shell/worker.js`, so page and workers
+//! cannot be of different versions.
+
+use std::cell::RefCell;
+use std::rc::{Rc, Weak};
+
+use serde::{Deserialize, Serialize};
+use wasm_bindgen::prelude::{Closure, wasm_bindgen};
+use wasm_bindgen::{JsCast as _, JsValue};
+use web_sys::{MessageEvent, Worker};
+
+use crate::app::crew::{Crew, Workers};
+use crate::jobs::work::{Finding, Work};
+
+/// Fewest and most workers.
+const COUNTS: (usize, usize) = (2, 8);
+
+/// A piece on its way to a worker, and what comes back.
+#[derive(Serialize, Deserialize)]
+struct Order {
+    number: u64,
+    work: Work,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Report {
+    number: u64,
+    finding: Result<Finding, String>,
+}
+
+/// Inside a worker: carries out an order and reports, both as JSON.
+#[wasm_bindgen]
+pub fn carry_out(order: &str) -> String {
+    let report = match serde_json::from_str::<Order>(order) {
+        Ok(Order { number, work }) => Report { number, finding: work.carry_out() },
+        Err(error) => Report { number: 0, finding: Err(error.to_string()) },
+    };
+    serde_json::to_string(&report).unwrap_or_default()
+}
+
+/// What the crew's messages lead to.
+pub(super) type Taken = Rc<dyn Fn(&Rc<RefCell<Crew>>)>;
+
+/// A worker with the functions that its events call.
+struct Hand {
+    worker: Worker,
+    _on_message: Closure<dyn FnMut(MessageEvent)>,
+    _on_error: Closure<dyn FnMut(JsValue)>,
+}
+
+impl Drop for Hand {
+    fn drop(&mut self) {
+        self.worker.set_onmessage(None);
+        self.worker.set_onerror(None);
+        self.worker.terminate();
+    }
+}
+
+/// The page's workers.
+pub(super) struct WebWorkers {
+    hands: Vec<Option<Hand>>,
+    crew: Weak<RefCell<Crew>>,
+    taken: Taken,
+}
+
+impl WebWorkers {
+    /// As many as the machine has cores; they bring their findings to `crew`, and then `taken` is called. `None` where
+    /// the browser has no workers.
+    pub(super) fn hire(crew: Weak<RefCell<Crew>>, taken: Taken) -> Option<Self> {
+        let cores = web_sys::window().map_or(0.0, |window| window.navigator().hardware_concurrency());
+        let count = (cores as usize).clamp(COUNTS.0, COUNTS.1);
+        let mut workers = Self { hands: Vec::new(), crew, taken };
+        for number in 0..count {
+            let hand = workers.hand(number)?;
+            workers.hands.push(Some(hand));
+        }
+        Some(workers)
+    }
+
+    fn hand(&self, number: usize) -> Option<Hand> {
+        let worker = super::shell::worker().dyn_into::<Worker>().ok()?;
+        let (crew, taken) = (self.crew.clone(), Rc::clone(&self.taken));
+        let on_message = Closure::new(move |event: MessageEvent| {
+            let Some(crew) = crew.upgrade() else { return };
+            let text = event.data().as_string().unwrap_or_default();
+            if let Ok(Report { number: order, finding }) = serde_json::from_str(&text) {
+                crew.borrow_mut().returned(number, order, finding);
+            }
+            taken(&crew);
+        });
+        let (crew, taken) = (self.crew.clone(), Rc::clone(&self.taken));
+        let on_error = Closure::new(move |_: JsValue| {
+            let Some(crew) = crew.upgrade() else { return };
+            // Replacing the worker drops this very function: not while it runs.
+            let taken = Rc::clone(&taken);
+            wasm_bindgen_futures::spawn_local(async move {
+                crew.borrow_mut().died(number);
+                taken(&crew);
+            });
+        });
+        worker.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
+        worker.set_onerror(Some(on_error.as_ref().unchecked_ref()));
+        Some(Hand { worker, _on_message: on_message, _on_error: on_error })
+    }
+}
+
+impl Workers for WebWorkers {
+    fn count(&self) -> usize {
+        self.hands.len()
+    }
+
+    fn give(&mut self, worker: usize, number: u64, work: &Work) {
+        let order = Order { number, work: work.clone() };
+        let text = serde_json::to_string(&order).unwrap_or_default();
+        if let Some(Some(hand)) = self.hands.get(worker) {
+            // A worker that cannot be reached is found overdue and replaced.
+            let _ = hand.worker.post_message(&JsValue::from_str(&text));
+        }
+    }
+
+    fn replace(&mut self, worker: usize) {
+        let hired = self.hand(worker);
+        if let Some(hand) = self.hands.get_mut(worker) {
+            *hand = hired;
+        }
+    }
+}

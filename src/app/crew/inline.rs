@@ -1,0 +1,47 @@
+//! Workers that are the caller's own thread: for tests, and where a browser has no workers.
+
+use super::Workers;
+use crate::app::clock::milliseconds;
+use crate::jobs::work::{Finding, Work};
+
+/// Time a frame may spend on pieces.
+const BUDGET_MS: f64 = 6.0;
+
+/// One worker that works when it is attended to.
+#[derive(Debug, Default)]
+pub struct Inline {
+    due: Option<(u64, Work)>,
+    /// When the present frame's share began.
+    since: Option<f64>,
+}
+
+impl Workers for Inline {
+    fn count(&self) -> usize {
+        1
+    }
+
+    fn give(&mut self, _worker: usize, number: u64, work: &Work) {
+        self.due = Some((number, work.clone()));
+    }
+
+    fn replace(&mut self, _worker: usize) {
+        self.due = None;
+    }
+
+    fn on_this_thread(&self) -> bool {
+        true
+    }
+
+    fn attend(&mut self) -> Option<(usize, u64, Result<Finding, String>)> {
+        let since = *self.since.get_or_insert_with(milliseconds);
+        if milliseconds() - since > BUDGET_MS {
+            self.since = None;
+            return None;
+        }
+        let Some((number, work)) = self.due.take() else {
+            self.since = None;
+            return None;
+        };
+        Some((0, number, work.carry_out()))
+    }
+}

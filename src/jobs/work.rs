@@ -1,0 +1,117 @@
+//! Pieces of work: what a study hands out, and what comes back. A worker of the page gets them as JSON.
+
+use serde::{Deserialize, Serialize};
+
+use crate::dynamics::sweep::{Dwell, SweepPoint};
+use crate::dynamics::tongue::{Tongue, Window};
+use crate::dynamics::{largest_multipliers, trace_tongue};
+use crate::model::Parameter;
+use crate::scenario::Scenario;
+use crate::theory::Resonance;
+
+/// A piece of work, done within a fraction of a second unless named otherwise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Work {
+    /// Any request of the native command; it may take long.
+    Answer {
+        /// The request as JSON.
+        request: String,
+    },
+    /// The exact border of a tongue; excitation and start of the scenario play no role.
+    Tongue {
+        /// The device.
+        scenario: Scenario,
+        /// Which tongue.
+        resonance: Resonance,
+        /// How far it is followed.
+        window: Window,
+    },
+    /// Columns of a chart of the forced motion's largest multiplier.
+    Columns {
+        /// The device.
+        scenario: Scenario,
+        /// One frequency a column.
+        omegas: Vec<f64>,
+        /// Ascending excitation amplitudes, the same for each column.
+        betas: Vec<f64>,
+    },
+    /// Neighbouring values of a sweep.
+    Sweep {
+        /// The device, and the start when `state` is absent.
+        scenario: Scenario,
+        /// What is swept.
+        parameter: Parameter,
+        /// Its values in the order in which they are visited.
+        values: Vec<f64>,
+        /// State carried over from the value before (length 2N + 1).
+        state: Option<Vec<f64>>,
+        /// How long each value is held.
+        dwell: Dwell,
+    },
+}
+
+/// What a piece of work found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Finding {
+    /// The answer as JSON.
+    Answer(String),
+    /// The tongue, if there is one within the window.
+    Tongue(Option<Tongue>),
+    /// The columns asked for.
+    Columns(Vec<Column>),
+    /// The values asked for, and the state in which the last one ended.
+    Sweep {
+        /// One a value.
+        points: Vec<SweepPoint>,
+        /// State to go on from (length 2N + 1); absent when the motion ended early.
+        state: Option<Vec<f64>>,
+    },
+}
+
+/// Largest multipliers along a column of a chart, absent from where the forced motion cannot be followed.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Column {
+    /// Modulus of each (dimensionless).
+    pub modulus: Vec<Option<f64>>,
+    /// Absolute argument of each (radians): 0 at a fold, pi at a period doubling, between them a pair.
+    pub argument: Vec<Option<f64>>,
+}
+
+impl Work {
+    /// Does the work.
+    ///
+    /// # Errors
+    /// One sentence that says what is out of range or cannot be computed.
+    pub fn carry_out(&self) -> Result<Finding, String> {
+        match self {
+            Self::Answer { request } => super::solve(request).map(Finding::Answer),
+            Self::Tongue { scenario, resonance, window } => {
+                let (system, _) = scenario.validate().map_err(sentence)?;
+                trace_tongue(&system, *resonance, *window).map(Finding::Tongue).map_err(sentence)
+            }
+            Self::Columns { scenario, omegas, betas } => {
+                let (system, _) = scenario.validate().map_err(sentence)?;
+                let column = |omega: &f64| {
+                    let values = largest_multipliers(&system, *omega, betas).map_err(sentence)?;
+                    Ok(Column {
+                        modulus: values.iter().map(|value| value.map(|mu| mu.norm())).collect(),
+                        argument: values.iter().map(|value| value.map(|mu| mu.arg().abs())).collect(),
+                    })
+                };
+                omegas.iter().map(column).collect::<Result<_, String>>().map(Finding::Columns)
+            }
+            Self::Sweep { scenario, parameter, values, state, dwell } => {
+                let (points, state) =
+                    crate::dynamics::sweep::sweep(scenario, *parameter, values, state.as_deref(), *dwell)
+                        .map_err(sentence)?;
+                Ok(Finding::Sweep { points, state })
+            }
+        }
+    }
+}
+
+fn sentence(error: impl std::fmt::Display) -> String {
+    error.to_string()
+}
