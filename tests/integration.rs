@@ -62,6 +62,28 @@ fn the_collocation_reproduces_figure_3() {
 }
 
 #[test]
+fn a_circuit_ten_million_times_faster_than_the_beam_is_followed() {
+    // kappa / c = 1e7, of which no step takes notice. The reference is tests/reference/stiff_circuit.py, whose runs
+    // at tolerances 1e-9 and 1e-10 differ by 2e-11 at most.
+    let set = ParameterSet {
+        alpha: 1e-4,
+        beta: 1e-2,
+        omega: 8.0,
+        c: 1e-9,
+        kappa: 1e-2,
+        theta: 1e-2,
+        ..Default::default()
+    };
+    let parameters = Parameters::new(set).expect("valid parameters");
+    let system = ReducedSystem::new(parameters, 2, ForceLaw::Exact).expect("a valid device");
+    let run = Trajectory::compute(&system, &[0.0; 5], 20.0, Settings::default()).expect("the run completes");
+    assert!(run.len() < 1000, "{} steps", run.len());
+    let reference =
+        [5.193320358039e-2, -3.203795891353e-4, 3.236445475533e-1, 1.344277384470e-2, 4.999675491383e-1];
+    assert_close(run.final_state(), &reference, 1e-10);
+}
+
+#[test]
 fn the_papers_method_reproduces_figure_3() {
     assert_close(&figure_3().dispatch(PaperRun(&figure_3(), 23_952_818)), &FIGURE_3, 1e-8);
 }

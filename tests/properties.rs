@@ -121,10 +121,11 @@ fn assert_five_thousand_random_devices_end_well(seed: u64) {
             }
         }
     }
-    // The questions reach every kind of end; most devices that exist have an answer.
-    let counts = [completed, escaped, touched, refused, unresolved];
+    // The questions reach every kind of end; devices that exist have an answer, but for a few whose motion is too
+    // fast to follow.
+    let counts = [completed, escaped, touched, refused];
     assert!(counts.iter().all(|count| *count > 100), "{counts:?}");
-    assert!(completed > 3 * unresolved, "{counts:?}");
+    assert!(unresolved <= 5, "{unresolved} of 5,000");
 }
 
 #[test]

@@ -74,8 +74,7 @@ impl Resonance {
 /// `only` if given, else in any way. The beta and omega of the system itself are not used.
 ///
 /// # Errors
-/// [`OrbitError::Model`] when `omega` is out of range, [`super::IntegrationError::TooStiff`], and
-/// [`OrbitError::Multipliers`].
+/// [`OrbitError::Model`] when `omega` is out of range, and [`OrbitError::Multipliers`].
 pub fn critical_excitation(
     system: &ReducedSystem,
     omega: f64,

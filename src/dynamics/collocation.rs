@@ -16,6 +16,7 @@
 use std::f64::consts::TAU;
 
 use super::linear::LinearPart;
+use super::propagator::Propagator;
 use super::tables::{BLOCK, NODES, NodeValues, RULE, StepTables};
 use super::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
 use crate::model::{ReducedSystem, RestForce};
@@ -26,9 +27,6 @@ const DEEPEST_LEVEL: usize = 20;
 const MAX_PASSES: usize = 14;
 /// Relative accuracy below which rounding hides every error.
 pub(super) const ROUNDING: f64 = 1e-14;
-/// Stiffness limit: rate times period, above which the tables would cost more than a run.
-pub(super) const MAX_RATE_PERIOD: f64 = 5e4;
-
 /// Steps that a run may take beyond [`MOST_SHORTENED`]: none may go on for minutes.
 const SPARE_STEPS: u64 = 200_000;
 /// How many times shorter than the longest step the steps of a long run may be on average.
@@ -62,6 +60,8 @@ pub struct Step<'a> {
     pub tip: &'a NodeValues,
     /// The tables of this step's length.
     pub tables: &'a StepTables,
+    /// The linear part's flow, for the motion within the step.
+    pub propagator: &'a Propagator,
     /// Position within the excitation period, in steps of this length; 0 at t = 2 pi k / omega.
     pub index: usize,
 }
@@ -70,6 +70,8 @@ pub struct Step<'a> {
 #[derive(Debug, Clone)]
 pub struct Collocation<F> {
     part: LinearPart,
+    /// Over the longest step, for its tables and for dense output.
+    propagator: Propagator,
     force: F,
     settings: Settings,
     period: f64,
@@ -102,8 +104,7 @@ impl<F: RestForce> Collocation<F> {
     /// An integrator of `system` under `force`, at time 0 in the state `initial` (length 2N + 1).
     ///
     /// # Errors
-    /// [`IntegrationError::InitialState`] when `initial` has the wrong length or is not finite,
-    /// [`IntegrationError::TooStiff`] when the device's time scales are too far apart.
+    /// [`IntegrationError::InitialState`] when `initial` has the wrong length or is not finite.
     pub fn new(
         system: &ReducedSystem,
         force: F,
@@ -114,16 +115,15 @@ impl<F: RestForce> Collocation<F> {
         check_state(initial, dimension)?;
         let part = LinearPart::new(system);
         let period = system.parameters.period();
-        let ratio = part.rate * period;
-        if !(ratio <= MAX_RATE_PERIOD) {
-            return Err(IntegrationError::TooStiff { ratio });
-        }
+        let coarsest = coarsest_steps(system);
+        let propagator = Propagator::new(&part, period / coarsest as f64);
         let mut extended = initial.to_vec();
         let beta = system.parameters.beta;
         extended.extend([0.0, beta]);
         Ok(Self {
-            coarsest: coarsest_steps(system),
+            coarsest,
             part,
+            propagator,
             force,
             settings,
             period,
@@ -158,9 +158,14 @@ impl<F: RestForce> Collocation<F> {
         self.steps
     }
 
-    /// The linear part, for dense output.
+    /// The linear part.
     pub fn linear_part(&self) -> &LinearPart {
         &self.part
+    }
+
+    /// The linear part's flow over the longest step and its fractions, for dense output.
+    pub fn propagator(&self) -> &Propagator {
+        &self.propagator
     }
 
     fn steps_per_period(&self) -> usize {
@@ -192,8 +197,12 @@ impl<F: RestForce> Collocation<F> {
             let tables = match self.tables[self.level].take() {
                 Some(tables) if !last => tables,
                 kept => {
-                    let length = if last { remaining } else { length };
-                    let tables = Box::new(StepTables::new(&self.part, length));
+                    let tables = if last || self.level > 0 {
+                        StepTables::new(&self.part, if last { remaining } else { length })
+                    } else {
+                        StepTables::of(&self.propagator)
+                    };
+                    let tables = Box::new(tables);
                     self.tables[self.level] = kept;
                     tables
                 }
@@ -240,6 +249,7 @@ impl<F: RestForce> Collocation<F> {
             rest: &self.rest,
             tip: &self.tip,
             tables,
+            propagator: &self.propagator,
             index: self.index,
         }
     }

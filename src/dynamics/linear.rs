@@ -1,15 +1,10 @@
-//! The linear part of the system together with its excitation, and its propagation by Taylor series.
+//! The linear part of the system together with its excitation.
 //!
 //! The extended vector (q_1..q_N, dq_1/dt..dq_N/dt, v, beta sin omega t, beta cos omega t) of length 2N + 3 obeys an
 //! autonomous linear equation; with the rest force R as a known input it is y' = A y - g R. The amplitude beta is in
 //! the vector, not in A, so that one preparation serves every excitation of a frequency.
 
 use crate::model::ReducedSystem;
-
-/// Remainder of the Taylor series, relative to the vector.
-const REMAINDER: f64 = 1e-18;
-/// Largest product of the fastest rate and a sub-step.
-const MAX_RATE_STEP: f64 = 0.5;
 
 /// Coefficients of the linear part, gathered for fast application.
 #[derive(Debug, Clone)]
@@ -89,116 +84,85 @@ impl LinearPart {
         out[2 * n + 2] = -self.omega * sine;
     }
 
-    /// Carries `y` (length 2N + 3) over `duration` in place, while R(t) is the polynomial with the Taylor
-    /// coefficients `rest` about the start.
-    pub fn propagate(&self, y: &mut [f64], duration: f64, rest: &[f64], workspace: &mut Workspace) {
-        let count = (self.rate * duration / MAX_RATE_STEP).ceil().max(1.0);
-        let step = duration / count;
-        let Workspace { term, next, rest: scaled } = workspace;
-        scaled.clear();
-        // Term k carries step^k, and so must the coefficient of R that enters it.
-        let mut power = 1.0;
-        for coefficient in rest {
-            scaled.push(coefficient * power);
-            power *= step;
+    /// `out` = transpose of A times `row`: how a linear functional of the vector looks a moment earlier.
+    pub(super) fn apply_transposed(&self, row: &[f64], out: &mut [f64]) {
+        let n = self.modes;
+        let (voltage, sine, cosine) = (row[2 * n], row[2 * n + 1], row[2 * n + 2]);
+        let current = voltage * self.inverse_capacitance;
+        let (mut tip, mut back_action, mut drive) = (0.0, 0.0, 0.0);
+        for k in 0..n {
+            let force = row[n + k] * self.inverse_mass[k];
+            tip += force;
+            back_action += force * self.theta[k];
+            drive += row[n + k] * self.drive[k];
         }
-        next.resize(y.len(), 0.0);
-        let order = order(self.rate * step).max(rest.len());
-        for _ in 0..count as usize {
-            term.clear();
-            term.extend_from_slice(y);
-            for k in 0..order {
-                self.apply(term, scaled.get(k).copied().unwrap_or(0.0), next);
-                let scale = step / (k as f64 + 1.0);
-                for (value, sum) in next.iter_mut().zip(y.iter_mut()) {
-                    *value *= scale;
-                    *sum += *value;
-                }
-                std::mem::swap(term, next);
-            }
-            move_origin_by_one(scaled);
+        for k in 0..n {
+            out[k] = -self.stiffness[k] * row[n + k];
+            out[n + k] =
+                row[k] + self.mutual_damping * tip - self.damping[k] * row[n + k] + self.theta[k] * current;
         }
+        out[2 * n] = -back_action - self.kappa * current;
+        out[2 * n + 1] = drive - self.omega * cosine;
+        out[2 * n + 2] = self.omega * sine;
     }
-}
-
-/// Number of terms after which those of exp(x) are below [`REMAINDER`].
-fn order(x: f64) -> usize {
-    let (mut term, mut k) = (1.0, 0);
-    while term > REMAINDER && k < 40 {
-        k += 1;
-        term *= x / k as f64;
-    }
-    k
-}
-
-/// Coefficients of the polynomial p(x + 1) from those of p(x), in place.
-fn move_origin_by_one(coefficients: &mut [f64]) {
-    let degree = coefficients.len();
-    for first in 0..degree.saturating_sub(1) {
-        for k in (first..degree - 1).rev() {
-            coefficients[k] += coefficients[k + 1];
-        }
-    }
-}
-
-/// Vectors that [`LinearPart::propagate`] reuses, so that it does not allocate.
-#[derive(Debug, Clone, Default)]
-pub struct Workspace {
-    term: Vec<f64>,
-    next: Vec<f64>,
-    rest: Vec<f64>,
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::model::{ForceLaw, ParameterSet, Parameters};
 
-    fn part() -> LinearPart {
-        let set = ParameterSet { beta: 0.01, ..Default::default() };
-        let system = Parameters::new(set).and_then(|p| ReducedSystem::new(p, 2, ForceLaw::Quadratic));
+    /// The linear part of the paper's device with some of its numbers changed.
+    pub(in crate::dynamics) fn part(set: ParameterSet, modes: usize) -> LinearPart {
+        let system = Parameters::new(set).and_then(|p| ReducedSystem::new(p, modes, ForceLaw::Quadratic));
         LinearPart::new(&system.expect("the paper's device is valid"))
     }
 
-    #[test]
-    fn propagation_agrees_with_the_matrix_exponential() {
-        let part = part();
-        let dimension = part.extended_dimension();
-        let mut matrix = nalgebra::DMatrix::zeros(dimension, dimension);
-        for j in 0..dimension {
-            let mut unit = vec![0.0; dimension];
-            unit[j] = 1.0;
-            let mut column = vec![0.0; dimension];
-            part.apply(&unit, 0.0, &mut column);
-            matrix.column_mut(j).copy_from_slice(&column);
-        }
-        let start: Vec<f64> = vec![0.01, -0.02, 0.1, 0.4, 3.0, 0.6, 0.8];
-        let mut y = start.clone();
-        part.propagate(&mut y, 0.7, &[], &mut Workspace::default());
-        let expected = (matrix * 0.7).exp() * nalgebra::DVector::from_vec(start);
-        for (value, expected) in y.iter().zip(expected.iter()) {
-            assert!((value - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{value} {expected}");
+    /// Round numbers, so that a reference needs no modes: a circuit with kappa / c = 1e7, beside it a beam with
+    /// frequencies 4 and 20 under the excitation of frequency 1.
+    pub(in crate::dynamics) fn stiff() -> LinearPart {
+        LinearPart {
+            modes: 2,
+            stiffness: vec![16.0, 400.0],
+            damping: vec![0.016, 0.4],
+            inverse_mass: vec![3.5, 3.25],
+            drive: vec![1.5, -0.75],
+            theta: vec![0.0125, 0.046875],
+            mutual_damping: 0.00125,
+            inverse_capacitance: 1e9,
+            kappa: 0.01,
+            omega: 1.0,
+            rate: 1.1e7,
         }
     }
 
-    #[test]
-    fn a_polynomial_rest_force_is_integrated_like_in_many_small_steps() {
-        let part = part();
-        let polynomial = [0.3, -2.0, 5.0, 1.0];
-        let mut once = vec![0.01, 0.0, 0.0, 0.1, 1.0, 0.0, 1.0];
-        let mut often = once.clone();
-        let mut workspace = Workspace::default();
-        part.propagate(&mut once, 0.2, &polynomial, &mut workspace);
-        // Midpoint values of R on 4,000 intervals: an independent second-order method.
-        let count = 4000;
-        let step = 0.2 / f64::from(count);
-        for i in 0..count {
-            let t = step * (f64::from(i) + 0.5);
-            let rest = polynomial.iter().rev().fold(0.0, |sum, c| sum * t + c);
-            part.propagate(&mut often, step, &[rest], &mut workspace);
+    /// The matrix A.
+    pub(in crate::dynamics) fn matrix(part: &LinearPart) -> nalgebra::DMatrix<f64> {
+        let size = part.extended_dimension();
+        let mut matrix = nalgebra::DMatrix::zeros(size, size);
+        for j in 0..size {
+            let mut unit = vec![0.0; size];
+            unit[j] = 1.0;
+            let mut column = vec![0.0; size];
+            part.apply(&unit, 0.0, &mut column);
+            matrix.column_mut(j).copy_from_slice(&column);
         }
-        for (a, b) in once.iter().zip(&often) {
-            assert!((a - b).abs() < 1e-7 * (1.0 + b.abs()), "{a} {b}");
+        matrix
+    }
+
+    #[test]
+    fn the_transposed_is_the_transpose() {
+        for part in [part(ParameterSet { alpha: 0.02, ..Default::default() }, 3), stiff()] {
+            let matrix = matrix(&part);
+            for i in 0..matrix.nrows() {
+                let mut unit = vec![0.0; matrix.nrows()];
+                unit[i] = 1.0;
+                let mut row = vec![0.0; matrix.nrows()];
+                part.apply_transposed(&unit, &mut row);
+                for (j, entry) in row.iter().enumerate() {
+                    assert!((entry - matrix[(i, j)]).abs() <= 1e-15 * entry.abs(), "{i} {j}");
+                }
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! * [`rk4`] repeats the paper's own runs, step by step.
 //! * [`collocation`] is the integrator behind everything else: the linear beam and circuit are carried by their
-//!   exact propagator, the magnet's rest force by Gauss-Legendre collocation; [`linear`] and [`tables`] prepare it.
+//!   exact [`propagator`], the magnet's rest force by Gauss-Legendre collocation; [`linear`] and [`tables`] prepare it.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`poincare`] and [`summary`] read them.
 //! * [`period_map`] is the stroboscopic map with its exact derivative, [`newton`] finds its fixed points, [`orbit`]
 //!   and [`floquet`] say what they are.
@@ -21,6 +21,7 @@ pub mod collocation;
 pub mod continuation;
 pub mod curves;
 pub mod evidence;
+mod extremes;
 pub mod floquet;
 mod flow;
 pub mod forced;
@@ -36,7 +37,9 @@ pub mod outcome;
 pub mod period_map;
 pub mod plane;
 pub mod poincare;
+pub mod propagator;
 pub mod rk4;
+mod rule;
 mod search;
 pub mod spectral_label;
 pub mod spectrum;

@@ -5,9 +5,11 @@ use serde::Serialize;
 
 use super::OrbitError;
 use super::collocation::Step;
+use super::extremes::{Highest, Scalar};
 use super::floquet::Instability;
 use super::newton::{Convergence, OrbitSolver};
-use super::tables::{NODES, RULE};
+use super::propagator::Propagator;
+use super::tables::NODES;
 use crate::model::quadrature::gauss_legendre;
 use crate::model::reduced::ForceVisitor;
 use crate::model::{ReducedSystem, RestForce};
@@ -15,8 +17,6 @@ use crate::theory::LinearResponse;
 
 /// Distance between stroboscopic points, over the gap, below which they are the same point.
 const SAME_POINT: f64 = 1e-8;
-/// Points of a step at which the tip's extremes are looked for.
-const SAMPLES: usize = 24;
 /// Decay within one step beyond which rounding hides its determinant.
 const MEASURABLE_DECAY: f64 = 12.0;
 
@@ -167,8 +167,10 @@ pub(super) struct Observer {
     weights: Vec<f64>,
     square: f64,
     steps: f64,
-    tip_min: f64,
-    tip_max: f64,
+    lowest: Highest,
+    highest: Highest,
+    /// From the first step.
+    propagator: Option<Propagator>,
     /// Logarithm of the determinant of the map's derivative.
     logarithm: f64,
 }
@@ -179,8 +181,9 @@ impl Default for Observer {
             weights: gauss_legendre(NODES).1,
             square: 0.0,
             steps: 0.0,
-            tip_min: f64::INFINITY,
-            tip_max: f64::NEG_INFINITY,
+            lowest: Highest::new(Scalar::Tip, -1.0),
+            highest: Highest::new(Scalar::Tip, 1.0),
+            propagator: None,
             logarithm: 0.0,
         }
     }
@@ -191,33 +194,18 @@ impl Observer {
         let voltage = step.tables.voltage.at_nodes(step.start, step.rest);
         self.square += self.weights.iter().zip(&voltage).map(|(w, v)| w * v * v).sum::<f64>();
         self.steps += 1.0;
-        // s is smooth within a step, so the polynomial through the nodes is as good as s; its extremes lie on
-        // parabolas through the samples.
-        let polynomial = RULE.taylor(step.tip, 0.0, 1.0);
-        let at = |i: usize| {
-            let x = i as f64 / SAMPLES as f64;
-            polynomial.iter().rev().fold(0.0, |sum, c| sum * x + c)
-        };
-        let (mut before, mut value) = (at(0), at(1));
-        self.see(before);
-        for i in 2..=SAMPLES {
-            let after = at(i);
-            let (slope, bend) = (0.5 * (after - before), after + before - 2.0 * value);
-            let extreme = slope.abs() <= bend.abs();
-            self.see(if extreme && bend != 0.0 { value - 0.5 * slope * slope / bend } else { value });
-            (before, value) = (value, after);
-        }
-        self.see(value);
-    }
-
-    fn see(&mut self, s: f64) {
-        self.tip_min = self.tip_min.min(s);
-        self.tip_max = self.tip_max.max(s);
+        self.propagator.get_or_insert_with(|| step.propagator.clone());
+        self.lowest.see(step, step.tip);
+        self.highest.see(step, step.tip);
     }
 
     pub(super) fn measures(&self, kappa: f64) -> Measures {
         // The steps are equally long, so the mean is that of their means.
         let mean = self.square / self.steps;
-        Measures { v_rms: mean.sqrt(), power: kappa * mean, tip_min: self.tip_min, tip_max: self.tip_max }
+        let (tip_min, tip_max) = match &self.propagator {
+            Some(propagator) => (-self.lowest.value(propagator), self.highest.value(propagator)),
+            None => (f64::INFINITY, f64::NEG_INFINITY),
+        };
+        Measures { v_rms: mean.sqrt(), power: kappa * mean, tip_min, tip_max }
     }
 }

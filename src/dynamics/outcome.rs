@@ -62,12 +62,4 @@ pub enum IntegrationError {
         /// Steps done.
         steps: u64,
     },
-    /// The linear system is so stiff that preparing a step would cost more than a run.
-    #[error(
-        "the device has a time scale {ratio:.0} times shorter than the excitation's period; reduce damping, load conductance or coupling"
-    )]
-    TooStiff {
-        /// Largest rate times the excitation's period.
-        ratio: f64,
-    },
 }

@@ -11,11 +11,12 @@ use std::f64::consts::TAU;
 
 use nalgebra::DMatrix;
 
-use super::collocation::{MAX_RATE_PERIOD, ROUNDING, Step, check_state, coarsest_steps};
+use super::collocation::{ROUNDING, Step, check_state, coarsest_steps};
 use super::linear::LinearPart;
+use super::propagator::Propagator;
 use super::tables::{NodeValues, StepTables, add_scaled};
 use super::variation::{add_padded, differentiate, high_degrees};
-use super::{ESCAPE_DISPLACEMENT, IntegrationError, OrbitError};
+use super::{ESCAPE_DISPLACEMENT, OrbitError};
 use crate::model::{ReducedSystem, RestForce};
 
 /// Bound on the estimated error at the end of a step, relative to the gap s0 or to a variation.
@@ -47,7 +48,7 @@ impl StepDerivative<'_> {
 /// The map of one structure at one excitation frequency under one force law.
 #[derive(Debug, Clone)]
 pub struct PeriodMap<F> {
-    part: LinearPart,
+    propagator: Propagator,
     force: F,
     period: f64,
     gap: f64,
@@ -70,7 +71,7 @@ impl<F: RestForce> PeriodMap<F> {
     /// Prepares the map of `system` under `force` on the coarsest grid. The system's beta is not used.
     ///
     /// # Errors
-    /// [`IntegrationError::TooStiff`] when the device's time scales are too far apart.
+    /// None at present.
     pub fn new(system: &ReducedSystem, force: F) -> Result<Self, OrbitError> {
         Self::with_level(system, force, 0)
     }
@@ -80,13 +81,13 @@ impl<F: RestForce> PeriodMap<F> {
     /// # Errors
     /// As [`Self::new`].
     pub(super) fn with_level(system: &ReducedSystem, force: F, level: u32) -> Result<Self, OrbitError> {
-        let part = linear_part(system)?;
         let period = system.parameters.period();
         let steps = coarsest_steps(system) << level;
-        let tables = StepTables::new(&part, period / steps as f64);
+        let propagator = Propagator::new(&LinearPart::new(system), period / steps as f64);
+        let tables = StepTables::of(&propagator);
         let size = tables.stride() * (tables.dimension() + 1);
         Ok(Self {
-            extended: vec![0.0; part.extended_dimension()],
+            extended: vec![0.0; propagator.part().extended_dimension()],
             end: vec![0.0; tables.stride()],
             step: vec![0.0; size],
             product: vec![0.0; size],
@@ -95,7 +96,7 @@ impl<F: RestForce> PeriodMap<F> {
             scales: scales(system),
             gap: system.equilibrium.gap,
             level,
-            part,
+            propagator,
             force,
             period,
             steps,
@@ -109,9 +110,8 @@ impl<F: RestForce> PeriodMap<F> {
     /// # Errors
     /// As [`Self::new`].
     pub fn retune(&mut self, system: &ReducedSystem) -> Result<(), OrbitError> {
-        self.part = linear_part(system)?;
         self.period = system.parameters.period();
-        self.set_steps(coarsest_steps(system) << self.level);
+        self.set_steps(&LinearPart::new(system), coarsest_steps(system) << self.level);
         Ok(())
     }
 
@@ -155,13 +155,14 @@ impl<F: RestForce> PeriodMap<F> {
             return Err(OrbitError::Unresolved { steps: self.steps });
         }
         self.level += 1;
-        self.set_steps(2 * self.steps);
+        self.set_steps(&self.propagator.part().clone(), 2 * self.steps);
         Ok(())
     }
 
-    fn set_steps(&mut self, steps: usize) {
+    fn set_steps(&mut self, part: &LinearPart, steps: usize) {
         self.steps = steps;
-        self.tables = StepTables::new(&self.part, self.period / steps as f64);
+        self.propagator = Propagator::new(part, self.period / steps as f64);
+        self.tables = StepTables::of(&self.propagator);
         self.phases = phases(steps);
     }
 
@@ -172,7 +173,7 @@ impl<F: RestForce> PeriodMap<F> {
     ///
     /// # Errors
     /// [`OrbitError::Escaped`], [`OrbitError::Contact`], [`OrbitError::Unresolved`] when the grid cannot follow
-    /// the motion at all, [`OrbitError::Periods`], [`IntegrationError::InitialState`].
+    /// the motion at all, [`OrbitError::Periods`], [`super::IntegrationError::InitialState`].
     pub fn apply(
         &mut self,
         state: &[f64],
@@ -206,7 +207,8 @@ impl<F: RestForce> PeriodMap<F> {
             let end = tables.end_gain / TOLERANCE;
             let motion = high_degrees(&rest) / gap * end.max(tables.gain / TOLERANCE_WITHIN);
             worst = worst.max(motion).max(variation * end);
-            let step = Step { time, start: &self.extended, rest: &rest, tip: &tip, tables, index };
+            let (start, propagator) = (&self.extended, &self.propagator);
+            let step = Step { time, start, rest: &rest, tip: &tip, tables, propagator, index };
             observer(&step, &StepDerivative { columns: &self.step, stride, dimension });
             tables.end(&self.extended, &rest, &mut self.end);
             self.extended[..dimension].copy_from_slice(&self.end[..dimension]);
@@ -237,7 +239,7 @@ impl<F: RestForce> PeriodMap<F> {
     #[inline]
     fn solve(&self, time: f64) -> Result<(NodeValues, NodeValues), OrbitError> {
         let tables = &self.tables;
-        let n = self.part.modes;
+        let n = self.propagator.part().modes;
         let free = tables.tip.free(&self.extended);
         let s: f64 = self.extended[..n].iter().sum();
         let w: f64 = self.extended[n..2 * n].iter().sum();
@@ -289,13 +291,6 @@ impl<F: RestForce> PeriodMap<F> {
         }
         std::mem::swap(&mut self.next, &mut self.product);
     }
-}
-
-/// The linear part of `system`, unless preparing its steps would take too long.
-fn linear_part(system: &ReducedSystem) -> Result<LinearPart, IntegrationError> {
-    let part = LinearPart::new(system);
-    let ratio = part.rate * system.parameters.period();
-    if ratio <= MAX_RATE_PERIOD { Ok(part) } else { Err(IntegrationError::TooStiff { ratio }) }
 }
 
 /// Sine and cosine of the phase at the start of each of `steps` steps.

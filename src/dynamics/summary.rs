@@ -3,6 +3,8 @@
 use serde::Serialize;
 
 use super::collocation::Step;
+use super::extremes::{Highest, Scalar};
+use super::propagator::Propagator;
 use super::tables::NODES;
 use crate::model::quadrature::gauss_legendre;
 
@@ -15,15 +17,16 @@ pub struct Summary {
     pub to: f64,
     /// Root mean square of the voltage (V).
     pub v_rms: f64,
-    /// Largest |v| at the nodes of the steps (V).
+    /// Largest |v| (V).
     pub v_peak: f64,
-    /// Largest |dv/dt| there (V per dimensionless time).
+    /// Largest |dv/dt| (V per dimensionless time).
     pub dv_dt_peak: f64,
     /// Lowest tip displacement from equilibrium, towards the fixed magnet, in beam lengths.
     pub tip_min: f64,
     /// Highest tip displacement, in beam lengths.
     pub tip_max: f64,
-    /// Largest |v| of the whole run (V).
+    /// Largest |v| of the whole run (V); before the window it is read at the nodes of the steps, which may miss some
+    /// per cent of a lonely peak.
     pub v_peak_whole: f64,
 }
 
@@ -39,32 +42,35 @@ pub struct Envelope {
 /// Collects [`Summary`] and [`Envelope`] step by step.
 #[derive(Debug, Clone)]
 pub struct Collector {
-    window: f64,
+    /// Start and end of the window.
+    window: (f64, f64),
     weights: Vec<f64>,
     integral: f64,
     duration: f64,
-    summary: Summary,
+    reached: f64,
+    v_peak_whole: f64,
+    /// Of v and of -v, of dv/dt and of -dv/dt, of s and of -s.
+    voltage: [Highest; 2],
+    rate: [Highest; 2],
+    tip: [Highest; 2],
     envelope: Envelope,
 }
 
 impl Collector {
-    /// For a run to `t_end` whose window starts at `window`, with the envelope in `slices` slices.
-    pub fn new(window: f64, t_end: f64, slices: usize) -> Self {
+    /// For a run to `t_end` with the given `window` (start and end, whole excitation periods, so that every step is
+    /// either inside or outside), with the envelope in `slices` slices.
+    pub fn new(window: (f64, f64), t_end: f64, slices: usize) -> Self {
+        let both = |scalar| [1.0, -1.0].map(|sign| Highest::new(scalar, sign));
         Self {
             window,
             weights: gauss_legendre(NODES).1,
             integral: 0.0,
             duration: 0.0,
-            summary: Summary {
-                from: window,
-                to: window,
-                v_rms: 0.0,
-                v_peak: 0.0,
-                dv_dt_peak: 0.0,
-                tip_min: f64::INFINITY,
-                tip_max: f64::NEG_INFINITY,
-                v_peak_whole: 0.0,
-            },
+            reached: window.0,
+            v_peak_whole: 0.0,
+            voltage: both(Scalar::Voltage),
+            rate: both(Scalar::VoltageRate),
+            tip: both(Scalar::Tip),
             envelope: Envelope { width: t_end / slices as f64, slices: Vec::with_capacity(slices) },
         }
     }
@@ -75,23 +81,26 @@ impl Collector {
         let first = step.start[step.start.len() - 3];
         let (low, high) = voltage.iter().fold((first, first), |(low, high), v| (low.min(*v), high.max(*v)));
         self.widen_envelope(step.time, low, high);
-        let summary = &mut self.summary;
-        summary.v_peak_whole = summary.v_peak_whole.max(high.max(-low));
-        // A step on the border belongs to the window when it begins in it, up to rounding.
-        if step.time < self.window - 1e-9 * step.tables.step {
+        self.v_peak_whole = self.v_peak_whole.max(high.max(-low));
+        // The borders are on the grid of steps, up to rounding.
+        let length = step.tables.step;
+        let inside = self.window.0 - 1e-6 * length..self.window.1 - 1e-6 * length;
+        if !inside.contains(&step.time) {
             return;
         }
         let rate = step.tables.voltage_rate.at_nodes(step.start, step.rest);
-        summary.v_peak = summary.v_peak.max(high.max(-low));
-        summary.dv_dt_peak = rate.iter().fold(summary.dv_dt_peak, |most, rate| most.max(rate.abs()));
-        summary.tip_min = step.tip.iter().copied().fold(summary.tip_min, f64::min);
-        summary.tip_max = step.tip.iter().copied().fold(summary.tip_max, f64::max);
+        for (highest, values) in
+            [(&mut self.voltage, &voltage), (&mut self.rate, &rate), (&mut self.tip, step.tip)]
+        {
+            for highest in highest {
+                highest.see(step, values);
+            }
+        }
         // The nodes are Gauss nodes, so the mean square comes with their weights.
         let square: f64 = self.weights.iter().zip(&voltage).map(|(w, v)| w * v * v).sum();
-        self.integral += square * step.tables.step;
-        self.duration += step.tables.step;
-        summary.to = step.time + step.tables.step;
-        summary.v_rms = (self.integral / self.duration).sqrt();
+        self.integral += square * length;
+        self.duration += length;
+        self.reached = step.time + length;
     }
 
     fn widen_envelope(&mut self, time: f64, low: f64, high: f64) {
@@ -104,9 +113,22 @@ impl Collector {
         slices[slice] = (slices[slice].0.min(low), slices[slice].1.max(high));
     }
 
-    /// The numbers so far; `None` before the window was reached.
-    pub fn summary(&self) -> Option<Summary> {
-        (self.duration > 0.0).then_some(self.summary)
+    /// The numbers so far, where `propagator` is that of the run; `None` before the window was reached.
+    pub fn summary(&self, propagator: &Propagator) -> Option<Summary> {
+        let largest = |both: &[Highest; 2]| both[0].value(propagator).max(both[1].value(propagator));
+        (self.duration > 0.0).then(|| {
+            let v_peak = largest(&self.voltage);
+            Summary {
+                from: self.window.0,
+                to: self.reached,
+                v_rms: (self.integral / self.duration).sqrt(),
+                v_peak,
+                dv_dt_peak: largest(&self.rate),
+                tip_min: -self.tip[1].value(propagator),
+                tip_max: self.tip[0].value(propagator),
+                v_peak_whole: self.v_peak_whole.max(v_peak),
+            }
+        })
     }
 
     /// The envelope so far.

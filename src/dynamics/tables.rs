@@ -4,80 +4,12 @@
 //! The rest of the system is linear, so the tip displacement at the nodes, the voltage there and the state at the
 //! end are linear in the state at the start, the excitation's phase and those eight values; here are the matrices.
 
-use std::sync::LazyLock;
-
-use super::linear::{LinearPart, Workspace};
-use crate::model::quadrature::{gauss_legendre, legendre};
-
-/// Number of collocation nodes in a step; the state at its end is then of order sixteen in its length.
-pub const NODES: usize = 8;
+use super::linear::LinearPart;
+use super::propagator::Propagator;
+pub use super::rule::{NODES, NodeValues, RULE, Rule, add_scaled};
 
 /// Entries of the state at the end of a step that are summed together.
 pub(super) const BLOCK: usize = 4;
-
-/// A value at each node of a step.
-pub type NodeValues = [f64; NODES];
-
-/// The Gauss nodes in (0, 1), the cardinal polynomials in powers of (2 x - 1), and Legendre projections.
-#[derive(Debug)]
-pub struct Rule {
-    /// Nodes as fractions of the step.
-    pub nodes: NodeValues,
-    /// Monomial coefficients of the cardinal polynomials about the middle of the step, for x in -1..1.
-    cardinal: [[f64; NODES]; NODES],
-    /// Rows that give the two highest Legendre coefficients of a polynomial from its node values.
-    pub highest: [NodeValues; 2],
-    /// The same for values that already carry the quadrature weights.
-    highest_of_weighted: [NodeValues; 2],
-}
-
-/// The rule used throughout.
-pub static RULE: LazyLock<Rule> = LazyLock::new(|| {
-    let (points, weights) = gauss_legendre(NODES);
-    let mut nodes = [0.0; NODES];
-    nodes.copy_from_slice(&points);
-    let mut cardinal = [[0.0; NODES]; NODES];
-    for (l, polynomial) in cardinal.iter_mut().enumerate() {
-        polynomial[0] = 1.0;
-        let own = 2.0 * nodes[l] - 1.0;
-        for (_, node) in nodes.iter().enumerate().filter(|(j, _)| *j != l) {
-            let other = 2.0 * node - 1.0;
-            for k in (0..NODES).rev() {
-                let lower = if k > 0 { polynomial[k - 1] } else { 0.0 };
-                polynomial[k] = (lower - other * polynomial[k]) / (own - other);
-            }
-        }
-    }
-    let highest_of_weighted = [NODES - 1, NODES - 2]
-        .map(|degree| nodes.map(|node| (2 * degree + 1) as f64 * legendre(degree, 2.0 * node - 1.0).0));
-    let highest = highest_of_weighted.map(|row| std::array::from_fn(|j| row[j] * weights[j]));
-    Rule { nodes, cardinal, highest, highest_of_weighted }
-});
-
-impl Rule {
-    /// Taylor coefficients, about `fraction` of a step of length `h`, of the polynomial with the given node
-    /// values, in powers of time.
-    pub fn taylor(&self, values: &NodeValues, fraction: f64, h: f64) -> NodeValues {
-        let mut coefficients = [0.0; NODES];
-        for (value, polynomial) in values.iter().zip(&self.cardinal) {
-            for (sum, c) in coefficients.iter_mut().zip(polynomial) {
-                *sum += value * c;
-            }
-        }
-        let origin = 2.0 * fraction - 1.0;
-        for first in 0..NODES - 1 {
-            for k in (first..NODES - 1).rev() {
-                coefficients[k] += origin * coefficients[k + 1];
-            }
-        }
-        let mut scale = 1.0;
-        for coefficient in &mut coefficients {
-            *coefficient *= scale;
-            scale *= 2.0 / h;
-        }
-        coefficients
-    }
-}
 
 /// One scalar read at the nodes of a step: linear in the extended state at its start and in R at the nodes.
 #[derive(Debug, Clone, Default)]
@@ -119,14 +51,6 @@ impl NodeMap {
     }
 }
 
-/// `sum` += `factor` * `row`.
-#[inline]
-pub fn add_scaled(sum: &mut NodeValues, factor: f64, row: &NodeValues) {
-    for (sum, value) in sum.iter_mut().zip(row) {
-        *sum += factor * value;
-    }
-}
-
 /// The tables of a step of one length.
 #[derive(Debug, Clone)]
 pub struct StepTables {
@@ -156,16 +80,23 @@ pub struct StepTables {
 impl StepTables {
     /// Prepares steps of length `step` of the linear part `part`.
     pub fn new(part: &LinearPart, step: f64) -> Self {
+        Self::of(&Propagator::new(part, step))
+    }
+
+    /// Prepares steps as long as the longest duration of `propagator`.
+    pub fn of(propagator: &Propagator) -> Self {
+        let (part, step) = (propagator.part(), propagator.duration());
         let n = part.modes;
         let extended = part.extended_dimension();
         let dimension = 2 * n + 1;
         // Rows are padded to whole blocks; the padding stays zero.
         let stride = dimension.next_multiple_of(BLOCK);
+        let empty = || NodeMap { from_state: vec![[0.0; NODES]; extended], ..Default::default() };
         let mut tables = Self {
             step,
-            tip: NodeMap { from_state: vec![[0.0; NODES]; extended], ..Default::default() },
-            voltage: NodeMap { from_state: vec![[0.0; NODES]; extended], ..Default::default() },
-            voltage_rate: NodeMap { from_state: vec![[0.0; NODES]; extended], ..Default::default() },
+            tip: empty(),
+            voltage: empty(),
+            voltage_rate: empty(),
             guess: [[0.0; NODES]; 2],
             gain: 0.0,
             end_gain: 0.0,
@@ -173,42 +104,17 @@ impl StepTables {
             stride,
             dimension,
         };
-        let mut workspace = Workspace::default();
-        let mut y = vec![0.0; extended];
-        let mut derivative = vec![0.0; extended];
-        for column in 0..extended + NODES {
-            y.fill(0.0);
-            let mut cardinal = [0.0; NODES];
-            if column < extended {
-                y[column] = 1.0
-            } else {
-                cardinal[column - extended] = 1.0
-            }
-            let mut reached = 0.0;
-            for j in 0..=NODES {
-                let target = if j < NODES { RULE.nodes[j] } else { 1.0 };
-                let rest =
-                    if column < extended { [0.0; NODES] } else { RULE.taylor(&cardinal, reached, step) };
-                let rest: &[f64] = if column < extended { &[] } else { &rest };
-                part.propagate(&mut y, (target - reached) * step, rest, &mut workspace);
-                reached = target;
-                if j == NODES {
-                    break;
-                }
-                part.apply(&y, 0.0, &mut derivative);
-                for (map, value) in [
-                    (&mut tables.tip, y[..n].iter().sum()),
-                    (&mut tables.voltage, y[2 * n]),
-                    (&mut tables.voltage_rate, derivative[2 * n]),
-                ] {
-                    let row = match column.checked_sub(extended) {
-                        None => &mut map.from_state[column],
-                        Some(node) => &mut map.from_rest[node],
-                    };
-                    row[j] = value;
-                }
-            }
-            tables.end[column * stride..column * stride + dimension].copy_from_slice(&y[..dimension]);
+        for (column, out) in tables.end.chunks_exact_mut(stride).enumerate() {
+            propagator.end_column(column, &mut out[..dimension]);
+        }
+        let mut rows = vec![vec![0.0; extended]; 3];
+        rows[0][..n].fill(1.0);
+        rows[1][2 * n] = 1.0;
+        let (voltage, rate) = rows.split_at_mut(2);
+        part.apply_transposed(&voltage[1], &mut rate[0]);
+        let maps = [&mut tables.tip, &mut tables.voltage, &mut tables.voltage_rate];
+        for (map, row) in maps.into_iter().zip(&rows) {
+            propagator.read_at_nodes(row, map);
         }
         let ramp = RULE.nodes.map(|node| node * step);
         tables.guess = [tables.tip.forced(&[1.0; NODES]), tables.tip.forced(&ramp)];

@@ -82,7 +82,7 @@ impl Tongue {
 ///
 /// # Errors
 /// [`OrbitError::Theory`] where the coupled modes do not exist, [`OrbitError::Model`] when the centre or the window's
-/// limit is out of range, [`super::IntegrationError::TooStiff`] and [`OrbitError::Multipliers`].
+/// limit is out of range, and [`OrbitError::Multipliers`].
 pub fn trace_tongue(
     system: &ReducedSystem,
     resonance: Resonance,

@@ -1,8 +1,8 @@
 //! A run kept step by step, with dense output: the state at any time, as accurate as the steps themselves.
 
 use super::collocation::{Collocation, Step};
-use super::linear::{LinearPart, Workspace};
-use super::tables::{NODES, NodeValues, RULE};
+use super::propagator::{Propagator, StepRest, Workspace};
+use super::tables::NodeValues;
 use super::{IntegrationError, Outcome, Settings};
 use crate::model::reduced::ForceVisitor;
 use crate::model::{ReducedSystem, RestForce};
@@ -10,7 +10,7 @@ use crate::model::{ReducedSystem, RestForce};
 /// The steps of a run. Between them the linear part is propagated exactly under the step's polynomial R.
 #[derive(Debug, Clone)]
 pub struct Trajectory {
-    part: LinearPart,
+    propagator: Propagator,
     /// Start times of the steps, ascending, and the end time of the last one.
     times: Vec<f64>,
     /// Extended states at the start of the steps, `width` numbers each.
@@ -54,10 +54,10 @@ impl Trajectory {
 
     /// An empty trajectory that [`Self::record`] fills from the run of `integrator`.
     pub fn recorder<F: RestForce>(integrator: &Collocation<F>) -> Self {
-        let part = integrator.linear_part().clone();
+        let propagator = integrator.propagator().clone();
         Self {
-            width: part.extended_dimension(),
-            part,
+            width: propagator.part().extended_dimension(),
+            propagator,
             times: Vec::new(),
             states: Vec::new(),
             rests: Vec::new(),
@@ -80,6 +80,11 @@ impl Trajectory {
         self.outcome = outcome;
         self.final_state = integrator.state().to_vec();
         self.end_time = integrator.time();
+    }
+
+    /// The linear part's flow over the longest step and its fractions.
+    pub fn propagator(&self) -> &Propagator {
+        &self.propagator
     }
 
     /// Time at which the record ends (dimensionless).
@@ -144,14 +149,14 @@ impl Trajectory {
         // Going on from the last sample of the same step is cheaper than from its start.
         if cursor.step != Some(step) || cursor.offset > offset {
             cursor.step = Some(step);
+            cursor.rest = StepRest::new(&self.rests[step], length);
             cursor.offset = 0.0;
             cursor.state.clear();
             cursor.state.extend_from_slice(&self.states[step * self.width..(step + 1) * self.width]);
         }
         if offset > cursor.offset {
-            let rest = RULE.taylor(&self.rests[step], cursor.offset / length, length);
-            let (state, workspace) = (&mut cursor.state, &mut cursor.workspace);
-            self.part.propagate(state, offset - cursor.offset, &rest[..NODES], workspace);
+            let Cursor { state, rest, workspace, .. } = cursor;
+            self.propagator.carry(state, cursor.offset, offset, rest, workspace);
             cursor.offset = offset;
         }
         out.copy_from_slice(&cursor.state[..dimension]);
@@ -163,6 +168,7 @@ impl Trajectory {
 struct Cursor {
     step: Option<usize>,
     offset: f64,
+    rest: StepRest,
     state: Vec<f64>,
     workspace: Workspace,
 }

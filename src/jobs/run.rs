@@ -13,7 +13,7 @@ const ENVELOPE_SLICES: usize = 800;
 const PERIODS_PER_SLICE: f64 = 4.0;
 /// Fewest slices.
 const LEAST_SLICES: usize = 60;
-/// Part of a run that its summary covers: the last tenth.
+/// Part of a run that its summary covers at least, unless there are no whole periods to cover: the last tenth.
 const WINDOW: f64 = 0.1;
 
 /// Everything the plots show of one run.
@@ -25,7 +25,8 @@ pub struct Run {
     pub trajectory: Trajectory,
     /// (v, dv/dt) at t = 2 pi k / omega, k = 0, 1, ..
     pub strobe: Vec<PhasePoint>,
-    /// Amplitudes and means over the last tenth, or over the whole run when it ended early.
+    /// Amplitudes and means over the last tenth in whole pairs of excitation periods, or over the whole run when it
+    /// ended early or is shorter than such a pair.
     pub summary: Option<Summary>,
     /// Envelope of the voltage.
     pub envelope: Envelope,
@@ -89,14 +90,15 @@ impl RunJob {
         let stage = system.dispatch(Start { system: &system, initial: &initial })?;
         let period = system.parameters.period();
         // Whole pairs of periods, so that means are those of the motion, also when its period has doubled.
-        let pairs = (0.5 * WINDOW * t_end / period).ceil().min((0.5 * t_end / period).floor());
-        let window = t_end - 2.0 * pairs * period;
+        let last = (t_end / period + 1e-9).floor();
+        let pairs = (0.5 * WINDOW * t_end / period).ceil().min((0.5 * last).floor());
+        let window = ((last - 2.0 * pairs) * period, last * period);
         let slices = (t_end / (PERIODS_PER_SLICE * period)) as usize;
         let slices = slices.clamp(LEAST_SLICES, ENVELOPE_SLICES);
         let recorder = Recorder {
             trajectory: stage.recorder(),
             strobe: Vec::with_capacity((t_end / period) as usize + 2),
-            collector: Collector::new(window.max(0.0), t_end, slices),
+            collector: Collector::new(window, t_end, slices),
         };
         Ok(Self { stage, system, t_end, recorder: Some(recorder) })
     }
@@ -132,7 +134,7 @@ struct Recorder {
 impl Recorder {
     fn finish(self, system: ReducedSystem) -> Run {
         let Self { trajectory, strobe, collector } = self;
-        let summary = collector.summary().or_else(|| whole_run(&trajectory, &system));
+        let summary = collector.summary(trajectory.propagator()).or_else(|| whole_run(&trajectory, &system));
         let recurrence = match (trajectory.outcome, &summary) {
             (Outcome::Completed, Some(summary)) => recurrence(&strobe, summary.v_peak, summary.dv_dt_peak),
             _ => None,

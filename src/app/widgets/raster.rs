@@ -75,7 +75,7 @@ mod tests {
     fn a_picture_is_remade_only_when_its_data_change() {
         let mut harness = Harness::new(100.0, 100.0);
         let made = Cell::new(0);
-        let mut draw = |ui: &Ui, revision: u64, known: bool| {
+        let draw = |ui: &Ui, revision: u64, known: bool| {
             let paint = |_: usize, _: usize| {
                 made.set(made.get() + 1);
                 known.then_some(Color32::RED)
