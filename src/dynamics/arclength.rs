@@ -197,8 +197,8 @@ impl<const K: usize> Family<K> {
         // The solver's scales follow the system; the places keep the first one's.
         let scales: Vec<f64> = self.solver.map().scales().to_vec();
         let matrix = self.solver.newton_matrix();
-        for j in 0..n {
-            derivative.set_column(j, &(matrix.column(j) * (-self.units[j] / (scales[j] * gap))));
+        for (j, (unit, scale)) in self.units.iter().zip(&scales).enumerate() {
+            derivative.set_column(j, &(matrix.column(j) * (-unit / (scale * gap))));
         }
         for (k, axis) in self.axes.iter().enumerate() {
             if axis.parameter == Parameter::Beta {

@@ -5,7 +5,7 @@ use nalgebra::{Complex, DVector};
 use super::condition::Condition;
 use super::curve::{CurvePoint, SpecialKind, SpecialPoint};
 use super::doubling::Doubling;
-use super::surface::{Course, Surface};
+use super::surface::{Direction, Surface};
 use crate::dynamics::orbit::Observer;
 use crate::dynamics::{Instability, OrbitError};
 
@@ -16,7 +16,7 @@ const CUBIC_REACH: f64 = 2.0;
 #[derive(Debug, Clone)]
 pub(super) struct Station {
     pub(super) place: DVector<f64>,
-    pub(super) course: Course,
+    pub(super) direction: Direction,
     pub(super) condition: Condition,
     pub(super) multipliers: Vec<Complex<f64>>,
     /// Tests of codimension two; that of a cusp is the course's turn.
@@ -64,13 +64,13 @@ impl Station {
         };
         let v_rms = observer.measures(family.system.parameters.kappa).v_rms;
         let at = family.values(&place);
-        let course = surface.course(&place, condition, like.map(|like| &like.course.tangent))?;
-        Ok(Self { place, course, condition, multipliers, tests, halving, doubling, at, v_rms })
+        let direction = surface.direction(&place, condition, like.map(|like| &like.direction.tangent))?;
+        Ok(Self { place, direction, condition, multipliers, tests, halving, doubling, at, v_rms })
     }
 
     /// Turns the station round, to leave it the other way.
     pub(super) fn reversed(mut self) -> Self {
-        self.course.tangent.neg_mut();
+        self.direction.tangent.neg_mut();
         self
     }
 
@@ -98,7 +98,7 @@ impl Station {
     /// The tangent's part in the plane of the parameters.
     pub(super) fn heading(&self) -> [f64; 2] {
         let n = self.place.len() - 2;
-        [self.course.tangent[n], self.course.tangent[n + 1]]
+        [self.direction.tangent[n], self.direction.tangent[n + 1]]
     }
 
     /// The cosine of the angle between the headings of two stations times the length of the other's heading: it
@@ -117,7 +117,7 @@ impl Station {
                 return cubic(before, self, 1.0 + step / width);
             }
         }
-        &self.place + &self.course.tangent * step
+        &self.place + &self.direction.tangent * step
     }
 }
 
@@ -126,8 +126,8 @@ pub(super) fn cubic(a: &Station, b: &Station, fraction: f64) -> DVector<f64> {
     let t = fraction;
     let chord = &b.place - &a.place;
     let width = chord.norm();
-    let start = &a.course.tangent * width;
-    let end = &b.course.tangent * width;
+    let start = &a.direction.tangent * width;
+    let end = &b.direction.tangent * width;
     // Hermite's form about a.
     &a.place
         + start * (t * (1.0 - t) * (1.0 - t))
@@ -158,9 +158,9 @@ mod tests {
         let on_circle = |angle: f64| {
             let mut station = station.clone();
             station.place.fill(0.0);
-            station.course.tangent.fill(0.0);
+            station.direction.tangent.fill(0.0);
             (station.place[0], station.place[1]) = angle.sin_cos();
-            (station.course.tangent[1], station.course.tangent[0]) = (-angle.sin(), angle.cos());
+            (station.direction.tangent[1], station.direction.tangent[0]) = (-angle.sin(), angle.cos());
             station
         };
         let error = |step: f64| {

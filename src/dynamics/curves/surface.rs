@@ -32,7 +32,7 @@ pub(super) struct Surface {
 
 /// The curve at a place: its direction and what corrections start from.
 #[derive(Debug, Clone)]
-pub(super) struct Course {
+pub(super) struct Direction {
     /// Unit tangent.
     pub(super) tangent: DVector<f64>,
     /// Gradient of the condition within the surface.
@@ -49,12 +49,12 @@ impl Surface {
     }
 
     /// The curve's direction at `place`, on which its solver is, on the side of `like`.
-    pub(super) fn course(
+    pub(super) fn direction(
         &mut self,
         place: &DVector<f64>,
         condition: Condition,
         like: Option<&DVector<f64>>,
-    ) -> Result<Course, OrbitError> {
+    ) -> Result<Direction, OrbitError> {
         let here = self.value(condition)?;
         let (_, derivative) = self.family.linearised(place, true)?;
         let (level, across) = self.tangent_plane(&derivative)?;
@@ -77,7 +77,7 @@ impl Surface {
             normal.fill(0.0);
             normal[n + self.held] = 1.0;
         }
-        Ok(Course { tangent, gradient, normal })
+        Ok(Direction { tangent, gradient, normal })
     }
 
     /// The point of the curve near `guess` in the hyperplane through it with the `normal`, corrected from what is
@@ -87,7 +87,7 @@ impl Surface {
         guess: &DVector<f64>,
         normal: &DVector<f64>,
         condition: Condition,
-        from: &Course,
+        from: &Direction,
     ) -> Result<DVector<f64>, OrbitError> {
         let n = self.family.dimension();
         let unit = from.gradient.norm();

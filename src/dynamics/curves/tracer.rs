@@ -18,7 +18,7 @@ use super::station::Station;
 use super::surface::Surface;
 use crate::dynamics::OrbitError;
 use crate::dynamics::plane::Plane;
-use crate::model::ReducedSystem;
+use crate::model::{ModelError, ReducedSystem};
 
 /// First, shortest and longest step, in units of the gap and of the window.
 const STEPS: (f64, f64, f64) = (1e-3, 1e-6, 0.15);
@@ -39,28 +39,27 @@ const SAME: f64 = 1e-6;
 /// two parameters, is that of `system`.
 ///
 /// # Errors
-/// [`OrbitError`] when there is no such bifurcation near the start, or no device. Once begun, a curve that is lost
+/// [`OrbitError`] when the start is outside the plane, there is no such bifurcation near it, or no device. Once begun, a curve that is lost
 /// is an answer, [`CurveEnd::Lost`].
 pub fn trace_curve(system: &ReducedSystem, start: &Start, plane: &Plane) -> Result<Curve, OrbitError> {
-    let mut set = *system.parameters;
     for (axis, value) in plane.axes().iter().zip(start.at) {
-        *axis.parameter.get_mut(&mut set) = axis.accepted(value);
+        ModelError::check(axis.parameter.field(), value, axis.range, "")?;
     }
-    let system = system.with_numbers(set)?;
+    let system = plane.system(system, start.at)?;
     let mut surface = Surface::new(&system, plane, start.periods)?;
     let place = surface.family.place(&start.state, start.at);
     surface.family.defect(&place)?;
     let multipliers = surface.family.solver.multipliers()?;
     let condition = Condition::at(start.kind, &multipliers).ok_or(OrbitError::Multipliers)?;
-    let near = surface.course(&place, condition, None)?;
+    let near = surface.direction(&place, condition, None)?;
     let place = surface.correct(&place, &near.tangent, condition, &near)?;
     let origin = Station::read(&mut surface, place, condition, None)?;
     let mut tracer = Tracer { surface, plane };
-    let back = tracer.side(origin.clone().reversed())?;
+    let back = tracer.side(origin.clone().reversed());
     let middle = origin.point(&tracer.surface);
     let forth = match back.end {
         CurveEnd::Closed => Side { points: Vec::new(), special: Vec::new(), end: CurveEnd::Closed },
-        _ => tracer.side(origin)?,
+        _ => tracer.side(origin),
     };
     let before = back.points.len();
     let mut special: Vec<SpecialPoint> = Vec::new();
@@ -102,7 +101,7 @@ pub(super) struct Tracer<'a> {
 
 impl Tracer<'_> {
     /// The part of the curve ahead of `origin`.
-    fn side(&mut self, origin: Station) -> Result<Side, OrbitError> {
+    fn side(&mut self, origin: Station) -> Side {
         let mut side = Side { points: Vec::new(), special: Vec::new(), end: CurveEnd::Points };
         let mut here = origin.clone();
         let mut past: Vec<Station> = Vec::new();
@@ -122,14 +121,21 @@ impl Tracer<'_> {
             };
             let after = side.points.len() + 1;
             let end = match self.halved(&past, &here) {
-                None => self.terminal(&here, &next)?,
-                half => half,
+                None => self.terminal(&here, &next),
+                half => Ok(half),
             };
-            if let Some((special, station)) = end {
-                side.special.push(station.special(&self.surface, special, after));
-                side.points.push(station.point(&self.surface));
-                side.end = CurveEnd::Meeting { special };
-                break;
+            match end {
+                Ok(None) => {}
+                Ok(Some((special, station))) => {
+                    side.special.push(station.special(&self.surface, special, after));
+                    side.points.push(station.point(&self.surface));
+                    side.end = CurveEnd::Meeting { special };
+                    break;
+                }
+                Err(reason) => {
+                    side.end = CurveEnd::Lost { reason: reason.to_string() };
+                    break;
+                }
             }
             for (kind, station) in self.specials(&here, &next) {
                 side.special.push(station.special(&self.surface, kind, after));
@@ -144,7 +150,7 @@ impl Tracer<'_> {
                 side.end = CurveEnd::Window;
                 break;
             }
-            let turn = here.course.tangent.dot(&next.course.tangent).clamp(-1.0, 1.0).acos();
+            let turn = here.direction.tangent.dot(&next.direction.tangent).clamp(-1.0, 1.0).acos();
             let [a, b] = next.heading();
             let longest = (PLANE_STEP / a.hypot(b)).min(STEPS.2);
             step = (step * (TURN.0 / turn.max(1e-3)).clamp(0.5, 1.6)).clamp(STEPS.1, longest);
@@ -153,7 +159,7 @@ impl Tracer<'_> {
                 past.remove(0);
             }
         }
-        Ok(side)
+        side
     }
 
     /// The station a `step` on, and whether it is on the window's border.
@@ -170,7 +176,7 @@ impl Tracer<'_> {
         let mut border = self.first_border(here.at(), self.surface.family.values(&guess));
         let mut next = None;
         if border.is_none() {
-            let station = self.land(here, &guess, &here.course.normal)?;
+            let station = self.land(here, &guess, &here.direction.normal)?;
             border = self.first_border(here.at(), station.at());
             next = border.is_none().then_some(station);
         }
@@ -190,7 +196,7 @@ impl Tracer<'_> {
             }
         };
         let moved = (&next.place - &guess).norm();
-        let straight = here.course.tangent.dot(&next.course.tangent) > TURN.1.cos();
+        let straight = here.direction.tangent.dot(&next.direction.tangent) > TURN.1.cos();
         if straight && moved <= DOUBTFUL * step {
             return Ok((next, reached));
         }
@@ -218,7 +224,7 @@ impl Tracer<'_> {
         guess: &DVector<f64>,
         normal: &DVector<f64>,
     ) -> Result<Station, OrbitError> {
-        let place = self.surface.correct(guess, normal, from.condition, &from.course)?;
+        let place = self.surface.correct(guess, normal, from.condition, &from.direction)?;
         Station::read(&mut self.surface, place, from.condition, Some(from))
     }
 
@@ -237,7 +243,7 @@ impl Tracer<'_> {
 
     /// Whether the step between two stations passes the `origin` again, in its direction.
     fn returns(&mut self, origin: &Station, here: &Station, next: &Station) -> bool {
-        let ahead = |station: &Station| (&station.place - &origin.place).dot(&origin.course.tangent);
+        let ahead = |station: &Station| (&station.place - &origin.place).dot(&origin.direction.tangent);
         let length = (&next.place - &here.place).norm();
         let near = (&next.place - &origin.place).norm() <= 2.0 * length;
         if !(near && ahead(here) < 0.0 && ahead(next) >= 0.0) {
@@ -245,7 +251,7 @@ impl Tracer<'_> {
         }
         let fraction = ahead(here) / (ahead(here) - ahead(next));
         let guess = super::station::cubic(here, next, fraction);
-        let found = self.surface.correct(&guess, &origin.course.tangent, here.condition, &here.course);
+        let found = self.surface.correct(&guess, &origin.direction.tangent, here.condition, &here.direction);
         found.is_ok_and(|place| (place - &origin.place).amax() < 1e2 * SAME)
     }
 }
