@@ -46,7 +46,7 @@ fn multipliers_at(
 
 #[test]
 fn beyond_a_cusp_there_are_two_folds_and_before_it_none() -> TestResult {
-    let (system, _, found) = bent_resonance()?;
+    let (system, _, found) = bent_resonance(1e-6)?;
     let cusps = found.iter().flat_map(|curve| &curve.special).filter(|s| s.kind == SpecialKind::Cusp);
     let cusp = cusps.max_by(|a, b| a.at[0].total_cmp(&b.at[0])).ok_or("a cusp")?;
     let folds = |beta: f64| -> Fallible<Vec<f64>> {
@@ -69,7 +69,7 @@ fn beyond_a_cusp_there_are_two_folds_and_before_it_none() -> TestResult {
 #[test]
 fn neimark_sacker_curves_end_in_resonances() -> TestResult {
     // 1:1 on the fold curve of the quadratic law, 1:2 on the period doublings of the exact one.
-    let (quadratic, window, found) = bent_resonance()?;
+    let (quadratic, window, found) = bent_resonance(1e-6)?;
     let exact = system(mild(1e-4), ForceLaw::Exact)?;
     let other = chart((8.4, 8.7), 0.02)?;
     let doublings = curves(&exact, &other)?;

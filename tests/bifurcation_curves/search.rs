@@ -1,8 +1,10 @@
 //! The search in pieces, as several workers do it.
 
-use harvester_lab::dynamics::curves::{Search, Start, bifurcations_along_line, search_lines, trace_curve};
-use harvester_lab::dynamics::{Instability, Orbit, Plane};
-use harvester_lab::model::ForceLaw;
+use harvester_lab::dynamics::curves::{
+    Search, Start, bifurcations_along_line, find_curves, search_lines, trace_curve,
+};
+use harvester_lab::dynamics::{Instability, Orbit, OrbitError, Plane};
+use harvester_lab::model::{ForceLaw, ParameterSet};
 
 use crate::support::*;
 
@@ -42,5 +44,19 @@ fn a_start_that_is_no_bifurcation_is_an_error() -> TestResult {
     let state = Orbit::find(&there, None, 1)?.state;
     let start = Start { kind: Instability::Fold, periods: 1, at: [7.65, 0.001], state };
     assert!(trace_curve(&system, &start, &window).is_err());
+    Ok(())
+}
+
+#[test]
+fn without_any_damping_no_modulation_sets_in() -> TestResult {
+    let set = ParameterSet { theta: 0.0, ..mild(0.0) };
+    let system = system(set, ForceLaw::Quadratic)?;
+    let window = chart((25.0, 26.0), 0.02)?;
+    let found = find_curves(&system, &window, Search::default())?;
+    assert_eq!((found.curves.len(), found.failures.len()), (0, 0));
+    let (kind, at) = (Instability::NeimarkSacker, [25.6, 0.01]);
+    let state = Orbit::find(&system.with_excitation(at[1], at[0])?, None, 1)?.state;
+    let start = Start { kind, periods: 1, at, state };
+    assert_eq!(trace_curve(&system, &start, &window), Err(OrbitError::Undamped));
     Ok(())
 }

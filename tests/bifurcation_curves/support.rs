@@ -49,9 +49,9 @@ pub(crate) fn at(system: &ReducedSystem, plane: &Plane, point: [f64; 2]) -> Fall
     Ok(ReducedSystem::new(Parameters::new(set)?, system.modes.len(), system.law)?)
 }
 
-/// The curves near the second natural frequency, where the quadratic law's forced motion ends.
-pub(crate) fn bent_resonance() -> Fallible<(ReducedSystem, Plane, Vec<Curve>)> {
-    let system = system(mild(1e-4), ForceLaw::Quadratic)?;
+/// The curves near the second natural frequency, where the quadratic law's forced motion ends, at a load `kappa`.
+pub(crate) fn bent_resonance(kappa: f64) -> Fallible<(ReducedSystem, Plane, Vec<Curve>)> {
+    let system = system(ParameterSet { kappa, ..mild(1e-4) }, ForceLaw::Quadratic)?;
     let window = chart((20.5, 22.5), 0.04)?;
     let found = curves(&system, &window)?;
     Ok((system, window, found))

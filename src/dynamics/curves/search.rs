@@ -121,6 +121,9 @@ pub fn bifurcations_along_line(
             }
         }
         let crossed = branch.points.last().is_some_and(|point| point.value == to);
+        if system.undamped() {
+            starts.retain(|start: &Start| start.kind != Instability::NeimarkSacker);
+        }
         if crossed || !upwards {
             return Ok(starts);
         }

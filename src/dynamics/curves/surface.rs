@@ -17,8 +17,6 @@ use crate::model::{Parameter, ReducedSystem};
 const MAX_ITERATIONS: usize = 10;
 /// A correction below this is the last one.
 const SETTLED: f64 = 1e-9;
-/// Smallest component of a plane's vector along a parameter that a step of the difference quotient is scaled by.
-const STEEP: f64 = 0.1;
 /// Smallest sine of the angle in the tangent plane between the curve and the line on which the held parameter is
 /// constant for points to be corrected along that line.
 const TRANSVERSAL: f64 = 0.1;
@@ -58,10 +56,8 @@ impl Surface {
         let here = self.value(condition)?;
         let (_, derivative) = self.family.linearised(place, true)?;
         let (level, across) = self.tangent_plane(&derivative)?;
-        let slopes = [
-            self.slope(place, &level, condition, here, 1 - self.held)?,
-            self.slope(place, &across, condition, here, self.held)?,
-        ];
+        let slopes =
+            [self.slope(place, &level, condition, here)?, self.slope(place, &across, condition, here)?];
         let gradient = &level * slopes[0] + &across * slopes[1];
         let mut tangent = (&across * slopes[0] - &level * slopes[1]).normalize();
         if tangent.iter().any(|value| !value.is_finite()) {
@@ -161,29 +157,15 @@ impl Surface {
         if finite { Ok((level, across)) } else { Err(OrbitError::Singular) }
     }
 
-    /// Derivative of the condition, `here` at `place`, along a unit `vector` of the tangent plane, by a difference in
-    /// which parameter `k` moves by the step of the family's own quotients, where its map is prepared.
+    /// Derivative of the condition, `here` at `place`, along a unit `vector` of the tangent plane.
     fn slope(
         &mut self,
         place: &DVector<f64>,
         vector: &DVector<f64>,
         condition: Condition,
         here: f64,
-        k: usize,
     ) -> Result<f64, OrbitError> {
-        let index = self.family.dimension() + k;
-        let difference = self.family.difference(place, k);
-        let steep = vector[index].abs() > STEEP;
-        let mut step = if steep { difference / vector[index] } else { difference };
-        let mut moved = place + vector * step;
-        if steep {
-            moved[index] = place[index] + difference;
-        }
-        if !self.family.accepts(&moved) {
-            step = -step;
-            moved = place + vector * step;
-        }
-        self.family.defect(&moved)?;
+        let step = self.family.step_along(place, vector)?;
         Ok((self.value(condition)? - here) / step)
     }
 }

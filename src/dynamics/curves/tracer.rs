@@ -5,9 +5,12 @@
 //! Bifurcations of Dynamical Equilibria". The curve passes its own folds in either parameter and those of the surface
 //! of orbits. Points are good to about 1e-9 of the window.
 //!
-//! Where it stops working: two points of the same codimension-two kind within one step (a fiftieth of the window) are
-//! both overlooked; without any damping at all (alpha = kappa = theta = 0) every pair is on the circle and there are
-//! no Neimark-Sacker curves to trace.
+//! Where it stops working: two points of the same codimension-two kind within one step (a thirtieth of the window) are
+//! both overlooked. Where a second multiplier stays near the critical one along the curve, their resonance is located
+//! as well as the multipliers are known, to about 1e-6 of the window. A tip whose radius is below about 1e-6 of the
+//! window ends the curve: narrow the window, or start on its other side. Without any damping
+//! ([`ReducedSystem::undamped`]) there are no Neimark-Sacker curves, points of codimension two are not looked for, and
+//! a tongue reaches beta = 0 in a corner, where the trace of its flank ends.
 
 use nalgebra::DVector;
 
@@ -16,12 +19,12 @@ use super::curve::{Curve, CurveEnd, CurvePoint, SpecialPoint, Start};
 use super::locate::KNOWN;
 use super::station::Station;
 use super::surface::Surface;
-use crate::dynamics::OrbitError;
 use crate::dynamics::plane::Plane;
+use crate::dynamics::{Instability, OrbitError};
 use crate::model::{ModelError, ReducedSystem};
 
 /// First, shortest and longest step, in units of the gap and of the window.
-const STEPS: (f64, f64, f64) = (1e-3, 1e-6, 0.15);
+const STEPS: (f64, f64, f64) = (1e-3, 1e-8, 0.15);
 /// Longest step in the plane, in units of the window.
 const PLANE_STEP: f64 = 0.03;
 /// Turn of the tangent in one step that is aimed at, and the largest (radians).
@@ -46,6 +49,10 @@ pub fn trace_curve(system: &ReducedSystem, start: &Start, plane: &Plane) -> Resu
         ModelError::check(axis.parameter.field(), value, axis.range, "")?;
     }
     let system = plane.system(system, start.at)?;
+    let undamped = system.undamped();
+    if undamped && start.kind == Instability::NeimarkSacker {
+        return Err(OrbitError::Undamped);
+    }
     let mut surface = Surface::new(&system, plane, start.periods)?;
     let place = surface.family.place(&start.state, start.at);
     surface.family.defect(&place)?;
@@ -54,7 +61,7 @@ pub fn trace_curve(system: &ReducedSystem, start: &Start, plane: &Plane) -> Resu
     let near = surface.direction(&place, condition, None)?;
     let place = surface.correct(&place, &near.tangent, condition, &near)?;
     let origin = Station::read(&mut surface, place, condition, None)?;
-    let mut tracer = Tracer { surface, plane };
+    let mut tracer = Tracer { surface, plane, undamped };
     let back = tracer.side(origin.clone().reversed());
     let middle = origin.point(&tracer.surface);
     let forth = match back.end {
@@ -97,6 +104,8 @@ struct Side {
 pub(super) struct Tracer<'a> {
     pub(super) surface: Surface,
     pub(super) plane: &'a Plane,
+    /// Then multipliers are reciprocal in pairs, and the tests of codimension two vanish everywhere.
+    undamped: bool,
 }
 
 impl Tracer<'_> {
@@ -111,6 +120,10 @@ impl Tracer<'_> {
                 Err(_) if step > STEPS.1 => {
                     step *= 0.5;
                     continue;
+                }
+                Err(_) if self.at_border(here.at()) => {
+                    side.end = CurveEnd::Window;
+                    break;
                 }
                 Err(reason) => {
                     let reason = self.obstacle(&here).unwrap_or(reason).to_string();
@@ -137,7 +150,8 @@ impl Tracer<'_> {
                     break;
                 }
             }
-            for (kind, station) in self.specials(&here, &next) {
+            let special = if self.undamped { Vec::new() } else { self.specials(&here, &next) };
+            for (kind, station) in special {
                 side.special.push(station.special(&self.surface, kind, after));
             }
             if after > 2 && self.returns(&origin, &here, &next) {
@@ -201,6 +215,16 @@ impl Tracer<'_> {
             return Ok((next, reached));
         }
         Err(OrbitError::Sharp)
+    }
+
+    /// Whether a point is as good as on the window's border: at the last, orbits may be of another kind, as those
+    /// without a load are.
+    fn at_border(&self, at: [f64; 2]) -> bool {
+        (0..2).any(|k| {
+            let axis = self.plane.axes()[k];
+            let (low, high) = axis.range;
+            (at[k] - low).min(high - at[k]) < SAME * axis.width()
+        })
     }
 
     /// Why there is no device beside `here`, if there is none: towards such a border the orbits change so fast that
