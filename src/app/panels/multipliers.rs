@@ -31,7 +31,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let reached = found.reached.as_ref().filter(|reached| found.forced.as_ref() != Some(*reached));
     let reached = reached.filter(|reached| !same(reached, found.forced.as_ref()));
     let name = reached.map(|reached| format!("period {} reached", reached.periods));
-    let mut entries = vec![(Series::Exact, "forced motion")];
+    let mut entries = vec![(Series::Forced, "forced motion")];
     entries.extend(name.as_deref().map(|name| (Series::Up, name)));
     legend::legend(ui, &entries);
     if let Some(forced) = &found.forced {
@@ -55,7 +55,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
         |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([-reach, -reach], [reach, reach]));
             plot_style::series(plot, Series::Ghost, "unit circle", &circle);
-            plot_style::points(plot, Series::Exact, "forced motion", &forced);
+            plot_style::points(plot, Series::Forced, "forced motion", &forced);
             plot_style::points(plot, Series::Up, "motion reached", &reached);
         },
     );

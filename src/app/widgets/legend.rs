@@ -25,6 +25,8 @@ pub enum Series {
     Torus,
     /// Curve of folds: fine dots.
     Fold,
+    /// Multipliers of the forced motion: large discs.
+    Forced,
     /// Reached by a sweep upwards: small discs.
     Up,
     /// Reached by a sweep downwards: small rings.
@@ -64,6 +66,7 @@ impl Series {
             Self::Poincare => tokens.poincare,
             Self::Torus => tokens.poincare,
             Self::Fold => tokens.warning,
+            Self::Forced => tokens.exact,
             Self::Up => tokens.numeric,
             Self::Down => tokens.warning,
             Self::Stable | Self::Unstable => tokens.ok,
@@ -82,6 +85,7 @@ impl Series {
             Self::Poincare => Pen::Points(3.5),
             Self::Torus => Pen::Line(2.2),
             Self::Fold => Pen::Dashes(2.0, 12.0),
+            Self::Forced => Pen::Points(4.5),
             Self::Up => Pen::Points(2.6),
             Self::Down => Pen::Rings(3.2),
             Self::Stable => Pen::Line(2.4),
