@@ -203,7 +203,12 @@ fn a_run_along_an_orbit_measures_the_orbit() -> TestResult {
     for (set, model, periods, t_end) in [
         (ParameterSet::default(), quadratic(2), 1, 602.0),
         (figure_9, quadratic(2), 2, 601.3),
-        (ParameterSet { omega: 12.0, ..strong() }, ModelChoice { modes: 4, force: ForceLaw::Exact }, 1, 100.0),
+        (
+            ParameterSet { omega: 12.0, ..strong() },
+            ModelChoice { modes: 4, force: ForceLaw::Exact },
+            1,
+            100.0,
+        ),
     ] {
         let system = model.system(set)?;
         let settled =
