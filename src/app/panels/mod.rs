@@ -6,6 +6,7 @@ pub(super) mod explore;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
 pub(super) mod paper;
+mod phase_plane;
 pub(super) mod phase_portrait;
 pub(super) mod poincare_map;
 pub(super) mod stability_map;
