@@ -132,7 +132,7 @@ impl ForceVisitor for Hold<'_> {
         let (begin, end) =
             (dwell.discarded as f64 * period, (dwell.discarded + dwell.kept) as f64 * period);
         let mut integrator = Collocation::new(system, force, from, Settings::default())?;
-        let mut collector = Collector::new(begin, end, 1);
+        let mut collector = Collector::new((begin, end), end, 1);
         let mut strobe: Vec<PhasePoint> = Vec::with_capacity(dwell.kept);
         let last = system.dimension() - 1;
         let outcome = loop {
@@ -148,7 +148,7 @@ impl ForceVisitor for Hold<'_> {
             }
         };
         let completed = outcome == Outcome::Completed;
-        let summary = collector.summary().filter(|_| completed);
+        let summary = collector.summary(integrator.propagator()).filter(|_| completed);
         let repeats = summary.and_then(|summary| recurrence(&strobe, summary.v_peak, summary.dv_dt_peak));
         let v_rms = summary.map_or(0.0, |summary| summary.v_rms);
         let point = SweepPoint {
