@@ -54,34 +54,14 @@ function missing() {
   return null;
 }
 
-// Compiled once, for the page and its workers.
-async function compiled(address) {
-  const response = await fetch(address);
-  if (!response.ok) throw new Error(`${address}: ${response.status} ${response.statusText}`);
-  try {
-    return await WebAssembly.compileStreaming(response.clone());
-  } catch {
-    // Some hosts send the wrong type for .wasm files.
-    return WebAssembly.compile(await response.arrayBuffer());
-  }
-}
-
-let newWorker = () => null;
-
 async function start() {
   const lacking = missing();
   if (lacking) {
     fail("This browser cannot show Harvester Lab", `${lacking} is missing or switched off.`);
     return;
   }
-  const script = element("module").href;
-  const [app, wasm] = await Promise.all([import(script), compiled(element("wasm").href)]);
-  newWorker = () => {
-    const worker = new Worker(element("worker").src, { type: "module" });
-    worker.postMessage({ script, wasm });
-    return worker;
-  };
-  await app.default({ module_or_path: wasm });
+  const app = await import(element("module").href);
+  await app.default({ module_or_path: element("wasm").href });
   const keep = () => {
     if (root.dataset.phase === "ready") app.keep();
   };
@@ -101,9 +81,12 @@ window.harvesterShell = Object.freeze({
     if (root.dataset.phase === "loading") root.dataset.phase = "ready";
   },
   fail,
-  worker: () => {
+  // A worker that runs the page's own module, compiled only once.
+  worker: (wasm) => {
     try {
-      return newWorker();
+      const worker = new Worker(element("worker").src, { type: "module" });
+      worker.postMessage({ script: element("module").href, wasm });
+      return worker;
     } catch {
       return null;
     }

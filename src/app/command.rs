@@ -1,6 +1,6 @@
 //! What panels ask for. They draw from shared references and push commands; one place carries them out.
 
-use super::view::{MapWindow, Panel, Tab};
+use super::view::{Layer, MapWindow, Panel, SweepView, Tab};
 use crate::scenario::Scenario;
 
 /// A wish of the user.
@@ -12,6 +12,10 @@ pub(super) enum Command {
     OpenTab(Tab),
     /// Look at another part of the stability map.
     LookAt(MapWindow),
+    /// Chart something else.
+    Chart(Layer),
+    /// Sweep something else.
+    Sweep(SweepView),
     /// Load a figure of the paper.
     LoadFigure(u8),
     /// Fill the page with a panel, or show all of them again.

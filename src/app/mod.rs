@@ -12,6 +12,7 @@ pub mod widgets;
 
 mod caption;
 mod clock;
+mod colours;
 mod command;
 mod comparison;
 pub mod crew;
@@ -19,6 +20,7 @@ mod curves;
 mod figures;
 mod map;
 mod panels;
+mod questions;
 mod reading;
 mod report;
 mod session;
@@ -110,8 +112,13 @@ impl App {
     fn carry_out(&mut self, command: Command) {
         match command {
             Command::Show(scenario) => self.show(*scenario),
-            Command::OpenTab(tab) => self.view.tab = tab,
+            Command::OpenTab(tab) => {
+                self.view.tab = tab;
+                self.view.enlarged = None;
+            }
             Command::LookAt(window) => self.look_at(window),
+            Command::Chart(layer) => self.view.layer = layer,
+            Command::Sweep(sweep) => self.view.sweep = sweep,
             Command::LoadFigure(number) => self.load_figure(number),
             Command::Enlarge(panel) => self.view.enlarged = panel,
             Command::Pin(keep) => self.session.pin(keep),
@@ -242,6 +249,8 @@ fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
 fn draw_tab(context: &mut Context<'_>, ui: &mut Ui) {
     match context.view.tab {
         Tab::Explore => panels::explore::show(context, ui),
+        Tab::Stability => panels::stability::show(context, ui),
+        Tab::Sweep => panels::sweep::show(context, ui),
         Tab::Paper => panels::paper::show(context, ui),
     }
 }

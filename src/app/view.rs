@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::figures::{self, Figure};
+use crate::dynamics::sweep::Dwell;
+use crate::model::Parameter;
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
@@ -13,6 +15,10 @@ pub enum Tab {
     /// The four linked plots.
     #[default]
     Explore,
+    /// Charts, multipliers, basins.
+    Stability,
+    /// Orbit diagrams and response curves.
+    Sweep,
     /// The paper's figures and tables.
     Paper,
 }
@@ -53,6 +59,21 @@ impl MapWindow {
     }
 }
 
+/// What the chart over (omega, beta) shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Layer {
+    /// Largest multiplier of the forced motion.
+    #[default]
+    Multiplier,
+    /// The motion reached from the scenario's start.
+    Motion,
+    /// Its voltage.
+    Voltage,
+    /// Its power.
+    Power,
+}
+
 /// The panels that can be made large.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -65,6 +86,50 @@ pub enum Panel {
     PoincareMap,
     /// Time history.
     TimeHistory,
+    /// Chart of stability or of motions.
+    Chart,
+    /// Multipliers and the unit circle.
+    Multipliers,
+    /// Stroboscopic points of a sweep.
+    OrbitDiagram,
+    /// Response curves.
+    Response,
+}
+
+/// What is swept, and how.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct SweepView {
+    /// What changes.
+    pub parameter: Parameter,
+    /// Lowest and highest value; about the resonance in view, or the present value, when absent.
+    pub range: Option<(f64, f64)>,
+    /// Number of values.
+    pub count: usize,
+    /// How long each is held.
+    pub dwell: Dwell,
+    /// What the response curves show.
+    pub output: Output,
+}
+
+impl Default for SweepView {
+    fn default() -> Self {
+        let (parameter, dwell) = (Parameter::Omega, Dwell::default());
+        Self { parameter, range: None, count: 240, dwell, output: Output::default() }
+    }
+}
+
+/// What a response curve shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Output {
+    /// Root mean square of the voltage.
+    #[default]
+    Voltage,
+    /// Mean power in the load.
+    Power,
+    /// Largest and smallest tip displacement over the gap.
+    Tip,
 }
 
 /// Scenario and view, as stored.
@@ -87,6 +152,10 @@ pub struct View {
     pub enlarged: Option<Panel>,
     /// Whether the beam moves.
     pub beam_moves: bool,
+    /// What the chart shows.
+    pub layer: Layer,
+    /// What is swept.
+    pub sweep: SweepView,
 }
 
 impl Default for View {
@@ -101,6 +170,8 @@ impl Default for View {
             figure: 9,
             enlarged: None,
             beam_moves: true,
+            layer: Layer::default(),
+            sweep: SweepView::default(),
         }
     }
 }

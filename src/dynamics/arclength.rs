@@ -1,23 +1,30 @@
-//! Points of a branch of periodic orbits as zeros in state and parameter together, and Newton's correction onto the
-//! branch within a hyperplane: what pseudo-arclength continuation is made of.
+//! Periodic orbits as zeros in state and parameters together, and Newton's correction onto a branch of them within a
+//! hyperplane: what pseudo-arclength continuation is made of.
 //!
-//! A place x holds the state in scaled components over the gap, then the parameter over the width of its range.
+//! A place x holds the state in scaled components over the gap, then each parameter over the width of its range. The
+//! derivative with respect to the state and to beta is exact; that with respect to another parameter is a difference
+//! quotient, kept from place to place: it decides how fast a correction converges, not where to.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::OrbitError;
 use super::newton::OrbitSolver;
 use super::period_map::PeriodMap;
-use crate::model::{Parameter, ParameterSet, Parameters, ReducedSystem, RestForce};
+use super::plane::Axis;
+use crate::model::{Parameter, ParameterSet, ReducedSystem, RestForce};
 
 /// Iterations of a correction.
-const MAX_ITERATIONS: usize = 8;
+const MAX_ITERATIONS: usize = 12;
+/// Iterations after which the difference quotients are renewed.
+const RENEWAL: usize = 4;
 /// A correction below this is the last one.
 const SETTLED: f64 = 1e-9;
 /// A defect below this is rounding, whatever correction a nearly singular matrix makes of it.
 const ROUNDING: f64 = 1e-14;
-/// Step of the difference quotient in the parameter, relative to the width of its range.
-const DIFFERENCE: f64 = 1e-6;
+/// Step of the difference quotient in a parameter, relative to the width of its range.
+pub(super) const DIFFERENCE: f64 = 1e-6;
+/// Prepared maps kept beside the present one.
+const SPARE: usize = 3;
 
 /// A force law behind a pointer: the law of a branch changes with its parameter.
 pub(super) struct Law(Box<dyn RestForce>);
@@ -40,53 +47,56 @@ impl RestForce for Law {
     }
 }
 
-/// The orbits of a device while one of its numbers changes.
-pub(super) struct Family {
+/// The orbits of a device while K of its numbers change.
+pub(super) struct Family<const K: usize> {
     pub(super) system: ReducedSystem,
-    pub(super) parameter: Parameter,
     pub(super) periods: usize,
     pub(super) solver: OrbitSolver<Law>,
+    axes: [Axis; K],
     /// Units of the places' components.
     units: Vec<f64>,
+    /// Systems that differ in more than beta, with their maps, the one used last at the end.
+    spare: Vec<(ReducedSystem, OrbitSolver<Law>)>,
+    /// Derivatives of the defect with respect to the parameters, (2N + 1) x K.
+    columns: Option<DMatrix<f64>>,
 }
 
-impl Family {
-    /// The orbits of `periods` excitation periods of the device `system` with its `parameter` within `range`.
-    pub(super) fn new(
-        system: &ReducedSystem,
-        parameter: Parameter,
-        range: (f64, f64),
-        periods: usize,
-    ) -> Result<Self, OrbitError> {
+impl<const K: usize> Family<K> {
+    /// The orbits of `periods` excitation periods of the device `system` with its parameters on `axes`.
+    pub(super) fn new(system: &ReducedSystem, axes: [Axis; K], periods: usize) -> Result<Self, OrbitError> {
         let mut solver = OrbitSolver::new(system, Law(system.rest_force()))?;
         let gap = solver.map().gap();
-        let units =
-            solver.map().scales().iter().map(|scale| scale * gap).chain([range.1 - range.0]).collect();
-        Ok(Self { system: system.clone(), parameter, periods, solver, units })
+        let state = solver.map().scales().iter().map(|scale| scale * gap);
+        let units = state.chain(axes.iter().map(Axis::width)).collect();
+        Ok(Self { system: system.clone(), periods, solver, axes, units, spare: Vec::new(), columns: None })
     }
 
-    /// The place of `state` at the parameter `value`.
-    pub(super) fn place(&self, state: &[f64], value: f64) -> DVector<f64> {
-        let values = state.iter().chain([&value]).zip(&self.units).map(|(value, unit)| value / unit);
+    /// Length 2N + 1 of the state.
+    pub(super) fn dimension(&self) -> usize {
+        self.units.len() - K
+    }
+
+    /// The place of `state` at the parameters `values`.
+    pub(super) fn place(&self, state: &[f64], values: [f64; K]) -> DVector<f64> {
+        let values = state.iter().chain(&values).zip(&self.units).map(|(value, unit)| value / unit);
         DVector::from_iterator(self.units.len(), values)
     }
 
     /// The state at a place, length 2N + 1.
     pub(super) fn state(&self, place: &DVector<f64>) -> Vec<f64> {
-        let n = place.len() - 1;
-        place.iter().zip(&self.units).take(n).map(|(value, unit)| value * unit).collect()
+        place.iter().zip(&self.units).take(self.dimension()).map(|(value, unit)| value * unit).collect()
     }
 
-    /// The parameter at a place.
-    pub(super) fn value(&self, place: &DVector<f64>) -> f64 {
-        let n = place.len() - 1;
-        place[n] * self.units[n]
+    /// The parameters at a place.
+    pub(super) fn values(&self, place: &DVector<f64>) -> [f64; K] {
+        let n = self.dimension();
+        std::array::from_fn(|k| place[n + k] * self.units[n + k])
     }
 
-    /// `place` with its parameter replaced by `value`.
-    pub(super) fn with_value(&self, mut place: DVector<f64>, value: f64) -> DVector<f64> {
-        let n = place.len() - 1;
-        place[n] = value / self.units[n];
+    /// `place` with its parameter `k` replaced by `value`.
+    pub(super) fn with_value(&self, mut place: DVector<f64>, k: usize, value: f64) -> DVector<f64> {
+        let n = self.dimension();
+        place[n + k] = value / self.units[n + k];
         place
     }
 
@@ -94,67 +104,118 @@ impl Family {
         self.system.parameters.beta
     }
 
-    /// Makes the system the one at the parameter `value`.
-    fn set(&mut self, value: f64) -> Result<(), OrbitError> {
-        // A border of the accepted range is met up to rounding.
-        let (minimum, maximum) = self.parameter.range();
-        let border = value.clamp(minimum, maximum);
-        let value = if (value - border).abs() <= 1e-12 * (maximum - minimum) { border } else { value };
-        if value == self.parameter.get(&self.system.parameters) {
-            return Ok(());
-        }
+    /// Makes the system the one at the parameters `values`. Between systems visited lately it only switches, and
+    /// finds their solvers as they were left.
+    pub(super) fn set(&mut self, values: [f64; K]) -> Result<(), OrbitError> {
         let mut set: ParameterSet = *self.system.parameters;
-        *self.parameter.get_mut(&mut set) = value;
-        match self.parameter {
-            Parameter::Beta => self.system = self.system.with_excitation(value, set.omega)?,
-            Parameter::Omega => {
-                self.system = self.system.with_excitation(set.beta, value)?;
-                self.solver.retune(&self.system)?;
+        for (axis, value) in self.axes.iter().zip(values) {
+            *axis.parameter.get_mut(&mut set) = axis.accepted(value);
+        }
+        let differs = |other: &ParameterSet| ParameterSet { beta: set.beta, ..*other } != set;
+        if differs(&self.system.parameters) {
+            let (system, solver) = match self.spare.iter().position(|(other, _)| !differs(&other.parameters))
+            {
+                Some(known) => self.spare.remove(known),
+                None => {
+                    let system = self.system.with_numbers(set)?;
+                    let (law, level) = (Law(system.rest_force()), self.solver.map().level());
+                    let map = PeriodMap::with_level(&system, law, level)?;
+                    let solver = OrbitSolver::with_map(&system, map);
+                    (system, solver)
+                }
+            };
+            let left =
+                (std::mem::replace(&mut self.system, system), std::mem::replace(&mut self.solver, solver));
+            self.spare.push(left);
+            if self.spare.len() > SPARE {
+                self.spare.remove(0);
             }
-            _ => {
-                let modes = self.system.modes.len();
-                self.system = ReducedSystem::new(Parameters::new(set)?, modes, self.system.law)?;
-                let (law, level) = (Law(self.system.rest_force()), self.solver.map().level());
-                let map = PeriodMap::with_level(&self.system, law, level)?;
-                self.solver = OrbitSolver::with_map(&self.system, map);
-            }
+        }
+        if self.system.parameters.beta != set.beta {
+            self.system = self.system.with_numbers(set)?;
         }
         Ok(())
     }
 
     /// The defect of periodicity at `place`, in units of the gap.
-    fn defect(&mut self, place: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
+    pub(super) fn defect(&mut self, place: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
         let state = self.state(place);
-        self.set(self.value(place))?;
+        self.set(self.values(place))?;
         let beta = self.beta();
         self.solver.evaluate_at(&state, beta, self.periods)?;
         let gap = self.solver.map().gap();
         Ok(self.solver.defect() / gap)
     }
 
-    /// Defect at `place` and its derivative, (2N + 1) x (2N + 2). The solver is left at the place.
-    fn linearised(&mut self, place: &DVector<f64>) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
-        let n = place.len() - 1;
-        let slope = if self.parameter == Parameter::Beta {
-            None
-        } else {
-            // One-sided at the ends of the accepted range.
-            let (minimum, maximum) = self.parameter.range();
-            let (mut low, mut high) = (place.clone(), place.clone());
-            low[n] = (place[n] - DIFFERENCE).max(minimum / self.units[n]);
-            high[n] = (place[n] + DIFFERENCE).min(maximum / self.units[n]);
-            Some((self.defect(&high)? - self.defect(&low)?) / (high[n] - low[n]))
-        };
+    /// The difference quotient's step in component `index` of `place`: backwards at the end of what is accepted.
+    pub(super) fn difference(&self, place: &DVector<f64>, k: usize) -> f64 {
+        let index = self.dimension() + k;
+        let maximum = self.axes[k].parameter.range().1 / self.units[index];
+        if place[index] + DIFFERENCE > maximum { -DIFFERENCE } else { DIFFERENCE }
+    }
+
+    /// Whether the model accepts the parameters at `place`.
+    pub(super) fn accepts(&self, place: &DVector<f64>) -> bool {
+        self.values(place).iter().zip(&self.axes).all(|(value, axis)| {
+            let (minimum, maximum) = axis.parameter.range();
+            (minimum..=maximum).contains(&axis.accepted(*value))
+        })
+    }
+
+    /// Renews the derivatives with respect to the parameters at `place`, where the solver is and has this `defect`.
+    fn renew(&mut self, place: &DVector<f64>, defect: &DVector<f64>) -> Result<(), OrbitError> {
+        let n = self.dimension();
+        let mut columns = DMatrix::zeros(n, K);
+        for k in 0..K {
+            if self.axes[k].parameter == Parameter::Beta {
+                continue;
+            }
+            let step = self.difference(place, k);
+            let mut moved = place.clone();
+            moved[n + k] += step;
+            let there = self.defect(&moved)?;
+            columns.set_column(k, &((there - defect) / step));
+        }
+        self.columns = Some(columns);
+        self.set(self.values(place))
+    }
+
+    /// Defect at `place` and its derivative, (2N + 1) x (2N + 1 + K), with new difference quotients where `renewed`.
+    /// The solver is left at the place.
+    pub(super) fn linearised(
+        &mut self,
+        place: &DVector<f64>,
+        renewed: bool,
+    ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
+        let n = self.dimension();
         let defect = self.defect(place)?;
+        if renewed || self.columns.is_none() {
+            self.renew(place, &defect)?;
+        }
         let gap = self.solver.map().gap();
-        let slope = slope.unwrap_or_else(|| self.solver.beta_derivative() * (self.units[n] / gap));
+        let mut derivative = DMatrix::zeros(n, n + K);
         // The solver's scales follow the system; the places keep the first one's.
         let scales: Vec<f64> = self.solver.map().scales().to_vec();
         let matrix = self.solver.newton_matrix();
-        let derivative = DMatrix::from_fn(n, n + 1, |i, j| {
-            if j == n { slope[i] } else { -matrix[(i, j)] * self.units[j] / (scales[j] * gap) }
-        });
+        for j in 0..n {
+            derivative.set_column(j, &(matrix.column(j) * (-self.units[j] / (scales[j] * gap))));
+        }
+        for (k, axis) in self.axes.iter().enumerate() {
+            if axis.parameter == Parameter::Beta {
+                let slope = self.solver.beta_derivative() * (self.units[n + k] / gap);
+                derivative.set_column(n + k, &slope);
+            } else if let Some(columns) = &self.columns {
+                derivative.set_column(n + k, &columns.column(k));
+            }
+        }
         Ok((defect, derivative))
+    }
+}
+
+impl Family<1> {
+    /// The parameter at a place.
+    pub(super) fn value(&self, place: &DVector<f64>) -> f64 {
+        self.values(place)[0]
     }
 
     /// The point of the branch in the hyperplane through `guess` with the `normal`; the solver is left there.
@@ -165,8 +226,8 @@ impl Family {
     ) -> Result<DVector<f64>, OrbitError> {
         let mut place = guess.clone();
         let mut residual = f64::INFINITY;
-        for _ in 0..MAX_ITERATIONS {
-            let (defect, derivative) = self.linearised(&place)?;
+        for iteration in 1..=MAX_ITERATIONS {
+            let (defect, derivative) = self.linearised(&place, iteration % RENEWAL == 0)?;
             residual = defect.amax();
             let off = normal.dot(&(&place - guess));
             if residual <= ROUNDING && off.abs() <= ROUNDING {
@@ -191,7 +252,7 @@ impl Family {
         place: &DVector<f64>,
         like: &DVector<f64>,
     ) -> Result<DVector<f64>, OrbitError> {
-        let (_, derivative) = self.linearised(place)?;
+        let (_, derivative) = self.linearised(place, true)?;
         let mut right = DVector::zeros(place.len());
         right[place.len() - 1] = 1.0;
         let tangent = bordered(&derivative, like).lu().solve(&right).ok_or(OrbitError::Singular)?;

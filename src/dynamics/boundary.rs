@@ -201,14 +201,14 @@ impl Forced {
     }
 
     /// The motion without excitation.
-    fn at_rest<F: RestForce>(solver: &mut OrbitSolver<F>) -> Result<Self, OrbitError> {
+    pub(super) fn at_rest<F: RestForce>(solver: &mut OrbitSolver<F>) -> Result<Self, OrbitError> {
         let rest = vec![0.0; solver.state().len()];
         solver.follow(&rest, 0.0, 1)?;
         Self::read(solver, 0.0)
     }
 
     /// The forced motion at `beta`, reached in as many steps as needed; `None` when they become too short.
-    fn march_to<F: RestForce>(
+    pub(super) fn march_to<F: RestForce>(
         self,
         solver: &mut OrbitSolver<F>,
         beta: f64,

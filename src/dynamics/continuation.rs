@@ -4,14 +4,15 @@
 //! Reference: Seydel, "Practical Bifurcation and Stability Analysis", chapters 4, 5 and 7. The orbits are those of the
 //! stroboscopic map, so a branch is lost where the motion touches the magnet or escapes within its period.
 
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, DVector};
 
 use super::OrbitError;
 use super::arclength::Family;
 use super::bracket::root;
 use super::branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course};
-use super::floquet::Instability;
+use super::floquet::{Instability, eigenvector};
 use super::orbit::Observer;
+use super::plane::Axis;
 use crate::model::ReducedSystem;
 
 /// Steps in units of the gap and of the parameter's range: first, shortest, longest.
@@ -35,11 +36,11 @@ const OFFSETS: [f64; 3] = [3e-3, 1e-2, 3e-2];
 /// As [`super::OrbitSolver::find`] when there is no orbit near `state`, [`OrbitError::Singular`] when it is exactly a
 /// bifurcation. Once begun, a branch that is lost is an answer, [`BranchEnd::Lost`].
 pub fn follow_branch(system: &ReducedSystem, state: &[f64], course: &Course) -> Result<Branch, OrbitError> {
-    let mut family = Family::new(system, course.parameter, course.range, course.periods)?;
+    let mut family = Family::new(system, [axis(course)], course.periods)?;
     let beta = family.beta();
     family.solver.find(state, beta, course.periods)?;
     let value = course.parameter.get(&system.parameters);
-    let start = family.place(family.solver.state(), value);
+    let start = family.place(family.solver.state(), [value]);
     let mut along = DVector::zeros(start.len());
     along[start.len() - 1] = if course.upwards { 1.0 } else { -1.0 };
     let tangent = family.tangent(&start, &along)?;
@@ -61,15 +62,14 @@ pub fn follow_doubled(
 ) -> Result<Branch, OrbitError> {
     let mut set = *system.parameters;
     *course.parameter.get_mut(&mut set) = origin.point.value;
-    let parameters = crate::model::Parameters::new(set)?;
-    let system = ReducedSystem::new(parameters, system.modes.len(), system.law)?;
-    let mut family = Family::new(&system, course.parameter, course.range, course.periods)?;
+    let system = system.with_numbers(set)?;
+    let mut family = Family::new(&system, [axis(course)], course.periods)?;
     let beta = family.beta();
     family.solver.evaluate_at(&origin.point.state, beta, course.periods)?;
-    let mode = critical_direction(&family.solver.map().scaled_derivative())?;
+    let mode = eigenvector(&family.solver.map().scaled_derivative(), -1.0)?;
     let doubled = Course { periods: 2 * course.periods, ..*course };
     family.periods = doubled.periods;
-    let start = family.place(&origin.point.state, origin.point.value);
+    let start = family.place(&origin.point.state, [origin.point.value]);
     let direction = mode.push(0.0);
     let mut reason = OrbitError::Singular;
     for offset in OFFSETS {
@@ -85,17 +85,8 @@ pub fn follow_doubled(
     Err(reason)
 }
 
-/// The unit vector that `matrix` turns into its opposite, by inverse iteration.
-fn critical_direction(matrix: &DMatrix<f64>) -> Result<DVector<f64>, OrbitError> {
-    let n = matrix.nrows();
-    // Away from the exact singularity, by less than the multiplier is known to.
-    let moved = matrix + DMatrix::identity(n, n) * (1.0 + 1e-9);
-    let solver = moved.lu();
-    let mut direction = DVector::from_element(n, 1.0);
-    for _ in 0..4 {
-        direction = solver.solve(&direction).ok_or(OrbitError::Singular)?.normalize();
-    }
-    if direction.iter().all(|value| value.is_finite()) { Ok(direction) } else { Err(OrbitError::Singular) }
+fn axis(course: &Course) -> Axis {
+    Axis { parameter: course.parameter, range: course.range }
 }
 
 /// A place with what is known there.
@@ -109,13 +100,13 @@ struct Station {
 }
 
 struct Follower {
-    family: Family,
+    family: Family<1>,
     course: Course,
     branch: Branch,
 }
 
 impl Follower {
-    fn new(family: Family, course: &Course) -> Self {
+    fn new(family: Family<1>, course: &Course) -> Self {
         let branch = Branch { points: Vec::new(), bifurcations: Vec::new(), end: BranchEnd::Points };
         Self { family, course: *course, branch }
     }
@@ -192,7 +183,7 @@ impl Follower {
         let guess = &here.place + &here.tangent * (step * fraction);
         let mut normal = DVector::zeros(guess.len());
         normal[guess.len() - 1] = 1.0;
-        let guess = self.family.with_value(guess, value);
+        let guess = self.family.with_value(guess, 0, value);
         let place = self.family.correct(&guess, &normal)?;
         let tangent = self.family.tangent(&place, &here.tangent)?;
         let mut next = self.read(place, tangent)?;
@@ -244,7 +235,7 @@ impl Follower {
         normal[station.place.len() - 1] = 1.0;
         let mut place = station.place.clone();
         let mut test = |value: f64| {
-            let guess = self.family.with_value(place.clone(), value);
+            let guess = self.family.with_value(place.clone(), 0, value);
             place = self.family.correct(&guess, &normal)?;
             Ok::<f64, OrbitError>(Instability::PeriodDoubling.test(&self.family.solver.multipliers()?))
         };

@@ -1,6 +1,6 @@
 //! Floquet multipliers of a periodic motion, and what they say about how it loses stability.
 
-use nalgebra::{Complex, DMatrix};
+use nalgebra::{Complex, DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::OrbitError;
@@ -72,4 +72,20 @@ pub fn multipliers(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, OrbitErro
     let mut values = eigenvalues(matrix, shifts, DEFLATION).ok_or(OrbitError::Multipliers)?;
     values.sort_by(|a, b| b.norm_sqr().total_cmp(&a.norm_sqr()).then(b.im.total_cmp(&a.im)));
     Ok(values)
+}
+
+/// The unit eigenvector of `matrix` to the real eigenvalue nearest to `multiplier`, by inverse iteration.
+///
+/// # Errors
+/// [`OrbitError::Singular`] when the iteration breaks down.
+pub(super) fn eigenvector(matrix: &DMatrix<f64>, multiplier: f64) -> Result<DVector<f64>, OrbitError> {
+    let n = matrix.nrows();
+    // Away from the exact singularity, by less than the multiplier is known to.
+    let moved = matrix - DMatrix::identity(n, n) * (multiplier * (1.0 + 1e-9));
+    let solver = moved.lu();
+    let mut direction = DVector::from_element(n, 1.0);
+    for _ in 0..4 {
+        direction = solver.solve(&direction).ok_or(OrbitError::Singular)?.normalize();
+    }
+    if direction.iter().all(|value| value.is_finite()) { Ok(direction) } else { Err(OrbitError::Singular) }
 }

@@ -7,8 +7,11 @@
 //! * [`period_map`] is the stroboscopic map with its exact derivative, [`newton`] finds its fixed points, [`orbit`]
 //!   and [`floquet`] say what they are.
 //! * [`sweep`] carries a motion from one value of a parameter to the next.
+//! * [`motion`] says what motion a start leads to; [`lyapunov`] has its exponents, [`spectrum`] and
+//!   [`voltage_spectrum`] its lines, which [`spectral_label`] names, and [`verdict`] weighs all of it.
+//! * [`forced`] is the motion that grows out of rest with the excitation.
 //! * [`boundary`] and [`tongue`] find where the forced motion loses its stability, [`continuation`] follows periodic
-//!   motions in any parameter.
+//!   motions in any parameter, [`curves`] their bifurcations in any two.
 
 mod arclength;
 pub mod boundary;
@@ -16,37 +19,62 @@ mod bracket;
 pub mod branch;
 pub mod collocation;
 pub mod continuation;
+pub mod curves;
+pub mod evidence;
 mod extremes;
 pub mod floquet;
+mod flow;
+pub mod forced;
+mod inquiry;
 pub mod linear;
+pub mod lyapunov;
+mod meter;
+pub mod motion;
 pub mod newton;
 pub mod orbit;
 pub mod orbit_error;
 pub mod outcome;
 pub mod period_map;
+pub mod plane;
 pub mod poincare;
 pub mod propagator;
 pub mod rk4;
 mod rule;
+mod search;
+pub mod spectral_label;
+pub mod spectrum;
+mod strobe;
 pub mod summary;
 pub mod sweep;
 pub mod tables;
+mod tangent;
 pub mod tongue;
 pub mod trajectory;
 mod variation;
+pub mod verdict;
+pub mod voltage_spectrum;
 
 pub use boundary::{CriticalExcitation, critical_excitation, largest_multipliers};
 pub use branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course};
 pub use collocation::{Collocation, Settings};
 pub use continuation::{follow_branch, follow_doubled};
+pub use curves::{Curve, CurveEnd, Line, SpecialKind, Start, find_curves, trace_curve};
 pub use floquet::Instability;
+pub use forced::ForcedMotion;
+pub use inquiry::Inquiry;
+pub use lyapunov::{Exponent, Lyapunov};
+pub use motion::{Horizon, Motion, Reached, reach};
 pub use newton::OrbitSolver;
 pub use orbit::Orbit;
 pub use orbit_error::OrbitError;
 pub use outcome::{IntegrationError, Outcome};
 pub use period_map::PeriodMap;
+pub use plane::{Axis, Plane};
+pub use search::Search;
 pub use tongue::{Tongue, trace_tongue};
 pub use trajectory::Trajectory;
+pub use verdict::Verdict;
+pub use voltage_spectrum::VoltageSpectrum;
 
 /// Tip displacement, in beam lengths, beyond which a motion counts as escaped: ten times the beam's own length,
 /// far outside the validity of any of the force laws.

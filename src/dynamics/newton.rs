@@ -287,6 +287,15 @@ impl<F: RestForce> OrbitSolver<F> {
         derivative
     }
 
+    /// (1 - M)^-1 `right`, scaled, for a right-hand side that holds no charge.
+    pub(super) fn response(&self, mut right: DVector<f64>) -> Result<DVector<f64>, OrbitError> {
+        if self.charge.is_some() {
+            let last = right.len() - 1;
+            right[last] = 0.0;
+        }
+        self.solved(right)
+    }
+
     fn solved(&self, mut right: DVector<f64>) -> Result<DVector<f64>, OrbitError> {
         let solvable = self.newton_matrix().lu().solve_mut(&mut right);
         let finite = solvable && right.iter().all(|value| value.is_finite());

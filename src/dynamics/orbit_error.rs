@@ -60,4 +60,19 @@ pub enum OrbitError {
         /// Largest number allowed.
         most: usize,
     },
+    /// A curve of orbits bends more sharply than its shortest steps.
+    #[error("the curve bends too sharply to be followed")]
+    Sharp,
+    /// The motion that grows out of rest does not reach the excitation.
+    #[error("the forced motion ends below beta = {beta}")]
+    MotionEnds {
+        /// The excitation amplitude asked for.
+        beta: f64,
+    },
+    /// A rectangle of parameters is empty, or its sides are the same parameter.
+    #[error("the plane's range of {parameter} must grow, and its two parameters must differ")]
+    Plane {
+        /// Name of a parameter concerned.
+        parameter: &'static str,
+    },
 }

@@ -129,8 +129,7 @@ impl ForceVisitor for Hold<'_> {
     fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
         let Self { system, from, dwell } = self;
         let period = system.parameters.period();
-        let (begin, end) =
-            (dwell.discarded as f64 * period, (dwell.discarded + dwell.kept) as f64 * period);
+        let (begin, end) = (dwell.discarded as f64 * period, (dwell.discarded + dwell.kept) as f64 * period);
         let mut integrator = Collocation::new(system, force, from, Settings::default())?;
         let mut collector = Collector::new((begin, end), end, 1);
         let mut strobe: Vec<PhasePoint> = Vec::with_capacity(dwell.kept);

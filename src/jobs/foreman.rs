@@ -36,6 +36,11 @@ impl<S> Lane<S> {
         self.study = None;
     }
 
+    /// Number of the newest question.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
     /// The newest study.
     pub fn study(&self) -> Option<&S> {
         self.study.as_ref()
@@ -139,7 +144,8 @@ impl Foreman {
             if let Some(piece) = traffic.next() {
                 self.handed += 1;
                 let work = piece.work.clone();
-                *slot = Some(Assignment { number: self.handed, lane, generation: traffic.generation(), piece });
+                *slot =
+                    Some(Assignment { number: self.handed, lane, generation: traffic.generation(), piece });
                 return Some((self.handed, work));
             }
         }

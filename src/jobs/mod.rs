@@ -3,6 +3,7 @@
 
 pub mod foreman;
 pub mod request;
+pub mod response;
 pub mod run;
 pub mod study;
 pub mod work;

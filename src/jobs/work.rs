@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::response::{ResponseCurve, response};
 use crate::dynamics::sweep::{Dwell, SweepPoint};
 use crate::dynamics::tongue::{Tongue, Window};
 use crate::dynamics::{largest_multipliers, trace_tongue};
@@ -49,6 +50,15 @@ pub enum Work {
         /// How long each value is held.
         dwell: Dwell,
     },
+    /// Response curves of periodic motions.
+    Response {
+        /// The device and its other numbers.
+        scenario: Scenario,
+        /// What changes.
+        parameter: Parameter,
+        /// Its lowest and highest value.
+        range: (f64, f64),
+    },
 }
 
 /// What a piece of work found.
@@ -68,6 +78,8 @@ pub enum Finding {
         /// State to go on from (length 2N + 1); absent when the motion ended early.
         state: Option<Vec<f64>>,
     },
+    /// The branches found.
+    Response(Vec<ResponseCurve>),
 }
 
 /// Largest multipliers along a column of a chart, absent from where the forced motion cannot be followed.
@@ -107,6 +119,9 @@ impl Work {
                     crate::dynamics::sweep::sweep(scenario, *parameter, values, state.as_deref(), *dwell)
                         .map_err(sentence)?;
                 Ok(Finding::Sweep { points, state })
+            }
+            Self::Response { scenario, parameter, range } => {
+                response(scenario, *parameter, *range).map(Finding::Response).map_err(sentence)
             }
         }
     }

@@ -48,6 +48,20 @@ impl ReducedSystem {
         Ok(Self { parameters, ..self.clone() })
     }
 
+    /// The system at other numbers: what does not depend on those that change is kept.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_numbers(&self, set: super::ParameterSet) -> Result<Self, ModelError> {
+        let parameters = Parameters::new(set)?;
+        let structure = |set: &super::ParameterSet| [set.c0, set.d, set.h, set.eta];
+        if structure(&set) != structure(&self.parameters) {
+            return Self::new(parameters, self.modes.len(), self.law);
+        }
+        let theta = self.modes.iter().map(|mode| parameters.theta * mode.tip_slope).collect();
+        Ok(Self { parameters, theta, ..self.clone() })
+    }
+
     /// Length 2N + 1 of the state.
     pub fn dimension(&self) -> usize {
         state_dimension(self.modes.len())
@@ -165,6 +179,26 @@ mod tests {
     fn system(modes: usize, law: ForceLaw) -> ReducedSystem {
         let parameters = Parameters::new(ParameterSet::default()).expect("the paper's parameters are valid");
         ReducedSystem::new(parameters, modes, law).expect("the paper's device is valid")
+    }
+
+    #[test]
+    fn a_system_at_other_numbers_is_the_one_made_from_them() -> Result<(), ModelError> {
+        let base = system(3, ForceLaw::Exact);
+        for parameter in crate::model::Parameter::ALL {
+            let mut set = *base.parameters;
+            *parameter.get_mut(&mut set) *= 1.1;
+            let (changed, made) =
+                (base.with_numbers(set)?, ReducedSystem::new(Parameters::new(set)?, 3, base.law)?);
+            assert_eq!(changed.parameters, made.parameters);
+            assert_eq!(
+                (changed.c1, changed.equilibrium.gap),
+                (made.c1, made.equilibrium.gap),
+                "{parameter:?}"
+            );
+            assert_eq!(changed.theta, made.theta, "{parameter:?}");
+            assert_eq!(changed.jacobian(0.3), made.jacobian(0.3), "{parameter:?}");
+        }
+        Ok(())
     }
 
     #[test]

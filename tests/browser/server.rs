@@ -1,13 +1,15 @@
-//! A plain static file server that writes down what was asked of it.
+//! The page served by Python's own file server, as the README says it may be, below a path of several folders; what was
+//! asked of it is written down.
 
 use std::{
-    fs, io,
+    fs,
+    io::{BufRead, BufReader},
     path::{Path, PathBuf},
+    process::{Child, Command, Stdio},
+    sync::atomic::{AtomicU32, Ordering},
     sync::{Arc, Mutex, MutexGuard},
-    thread::{self, JoinHandle},
+    thread,
 };
-
-use tiny_http::{Header, Method, Response, Server};
 
 /// The page is served below this path, to show that it holds no absolute address.
 pub(crate) const PREFIX: &str = "/some/sub/path/";
@@ -22,9 +24,11 @@ pub(crate) struct Served {
 /// Serves a folder on a free port until dropped.
 pub(crate) struct Files {
     root: PathBuf,
-    server: Arc<Server>,
+    /// Holds a link to the page below [`PREFIX`].
+    site: PathBuf,
+    server: Child,
+    port: u16,
     log: Arc<Mutex<Vec<Served>>>,
-    thread: Option<JoinHandle<()>>,
 }
 
 impl Files {
@@ -34,33 +38,35 @@ impl Files {
             "there is no page in {}: run `make build` (or `make dev`) first",
             root.display()
         );
-        let server = Arc::new(Server::http("127.0.0.1:0").expect("a free port"));
+        let site = site(root);
+        let mut server = Command::new("python3")
+            .args(["-u", "-m", "http.server", "--bind", "127.0.0.1", "--directory"])
+            .arg(&site)
+            .arg("0")
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("python3 serves files");
+        let mut greeting = String::new();
+        let stdout = server.stdout.take().expect("a pipe");
+        BufReader::new(stdout).read_line(&mut greeting).expect("the server says its port");
+        let port = greeting.split_whitespace().find_map(|word| word.parse().ok());
+        let port = port.unwrap_or_else(|| panic!("no port in {greeting:?}"));
         let log = Arc::new(Mutex::new(Vec::new()));
-        let thread = thread::spawn({
-            let (server, log, root) = (Arc::clone(&server), Arc::clone(&log), root.to_owned());
+        let stderr = server.stderr.take().expect("a pipe");
+        thread::spawn({
+            let log = Arc::clone(&log);
             move || {
-                for request in server.incoming_requests() {
-                    let path = request.url().split(['?', '#']).next().unwrap_or_default().to_owned();
-                    let file = (*request.method() == Method::Get).then(|| file_of(&root, &path)).flatten();
-                    let body = file.as_ref().map(fs::read);
-                    let status = if matches!(body, Some(Ok(_))) { 200 } else { 404 };
-                    log.lock().expect("the log").push(Served { path, status });
-                    // A browser that closes a connection early is no failure of the page.
-                    let _sent: io::Result<()> = match (file, body) {
-                        (Some(file), Some(Ok(bytes))) => {
-                            request.respond(Response::from_data(bytes).with_header(content_type(&file)))
-                        }
-                        _ => request.respond(Response::empty(404)),
-                    };
+                for line in BufReader::new(stderr).lines().map_while(Result::ok) {
+                    log.lock().expect("the log").extend(served(&line));
                 }
             }
         });
-        Self { root: root.to_owned(), server, log, thread: Some(thread) }
+        Self { root: root.to_owned(), site, server, port, log }
     }
 
     pub(crate) fn url(&self) -> String {
-        let port = self.server.server_addr().to_ip().expect("an IP address").port();
-        format!("http://127.0.0.1:{port}{PREFIX}")
+        format!("http://127.0.0.1:{}{PREFIX}", self.port)
     }
 
     pub(crate) fn log(&self) -> MutexGuard<'_, Vec<Served>> {
@@ -69,34 +75,37 @@ impl Files {
 
     /// The file behind a served path.
     pub(crate) fn file(&self, path: &str) -> Option<PathBuf> {
-        file_of(&self.root, path)
+        let name = path.strip_prefix(PREFIX)?;
+        let name = if name.is_empty() { "index.html" } else { name };
+        (!name.contains("..")).then(|| self.root.join(name))
     }
 }
 
 impl Drop for Files {
     fn drop(&mut self) {
-        self.server.unblock();
-        if let Some(thread) = self.thread.take() {
-            let _ended = thread.join();
-        }
+        let _ended = self.server.kill();
+        let _status = self.server.wait();
+        let _removed = fs::remove_dir_all(&self.site);
     }
 }
 
-fn file_of(root: &Path, path: &str) -> Option<PathBuf> {
-    let name = path.strip_prefix(PREFIX)?;
-    let name = if name.is_empty() { "index.html" } else { name };
-    (!name.contains("..")).then(|| root.join(name))
+/// A new folder in which the page is found below [`PREFIX`].
+fn site(root: &Path) -> PathBuf {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let number = COUNT.fetch_add(1, Ordering::Relaxed);
+    let site = std::env::temp_dir().join(format!("harvester-lab-{}-{number}", std::process::id()));
+    let _removed = fs::remove_dir_all(&site);
+    let link = site.join(PREFIX.trim_matches('/'));
+    fs::create_dir_all(link.parent().expect("a folder")).expect("a temporary folder");
+    std::os::unix::fs::symlink(root.canonicalize().expect("a path"), link).expect("a link");
+    site
 }
 
-fn content_type(file: &Path) -> Header {
-    let kind = match file.extension().and_then(|extension| extension.to_str()) {
-        Some("html") => "text/html; charset=utf-8",
-        Some("js") => "text/javascript",
-        Some("css") => "text/css",
-        Some("wasm") => "application/wasm",
-        Some("svg") => "image/svg+xml",
-        Some("json" | "webmanifest") => "application/json",
-        _ => "application/octet-stream",
-    };
-    Header::from_bytes("Content-Type", kind).expect("a valid header")
+/// Reads `127.0.0.1 - - [date] "GET /path HTTP/1.1" 200 -`.
+fn served(line: &str) -> Option<Served> {
+    let (_, request) = line.split_once("\"GET ")?;
+    let (path, rest) = request.split_once(' ')?;
+    let status = rest.split_whitespace().nth(1)?.parse().ok()?;
+    let path = path.split(['?', '#']).next()?.to_owned();
+    Some(Served { path, status })
 }

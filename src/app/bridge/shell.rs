@@ -13,7 +13,7 @@ extern "C" {
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn fail(title: &str, detail: &str);
 
-    /// A new worker that has been told which module to run, or null.
+    /// A new worker that has been told to run this (compiled) `module`, or null.
     #[wasm_bindgen(js_namespace = harvesterShell)]
-    pub(super) fn worker() -> JsValue;
+    pub(super) fn worker(module: &JsValue) -> JsValue;
 }

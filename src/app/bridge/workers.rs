@@ -78,7 +78,7 @@ impl WebWorkers {
     }
 
     fn hand(&self, number: usize) -> Option<Hand> {
-        let worker = super::shell::worker().dyn_into::<Worker>().ok()?;
+        let worker = super::shell::worker(&wasm_bindgen::module()).dyn_into::<Worker>().ok()?;
         let (crew, taken) = (self.crew.clone(), Rc::clone(&self.taken));
         let on_message = Closure::new(move |event: MessageEvent| {
             let Some(crew) = crew.upgrade() else { return };

@@ -1,13 +1,15 @@
 //! What is being studied for the page: one lane a topic, the newest question of each.
 
 use crate::app::map::{self, Structure};
+use crate::app::questions;
 use crate::app::session::Session;
-use crate::app::view::View;
+use crate::app::view::{Layer, Tab, View};
 use crate::dynamics::tongue::Window;
 use crate::jobs::foreman::{Lane, Traffic};
 use crate::jobs::study::Study as _;
 use crate::jobs::study::answers::Answers;
 use crate::jobs::study::multiplier_chart::{MultiplierChart, MultiplierQuestion};
+use crate::jobs::study::response::{ResponseQuestion, ResponseStudy};
 use crate::jobs::study::sweep::{Direction, SweepQuestion, SweepStudy};
 use crate::jobs::study::tongues::TongueStudy;
 use crate::scenario::Scenario;
@@ -37,6 +39,8 @@ pub(in crate::app) struct Studies {
     pub multipliers: Lane<MultiplierChart>,
     /// Sweep up and down.
     pub sweep: Lane<SweepStudy>,
+    response: Lane<ResponseStudy>,
+    response_before: Option<ResponseStudy>,
 }
 
 impl Default for Studies {
@@ -50,6 +54,8 @@ impl Default for Studies {
             before: None,
             multipliers: Lane::default(),
             sweep: Lane::default(),
+            response: Lane::default(),
+            response_before: None,
         }
     }
 }
@@ -59,14 +65,26 @@ impl Studies {
     pub(super) const URGENT: usize = 2;
 
     /// All lanes, most urgent first.
-    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; 4] {
-        [&mut self.answers, &mut self.tongues, &mut self.multipliers, &mut self.sweep]
+    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; 5] {
+        [&mut self.answers, &mut self.tongues, &mut self.response, &mut self.multipliers, &mut self.sweep]
     }
 
     /// Asks for what the view shows.
-    pub(in crate::app) fn follow(&mut self, view: &View, _session: &Session) {
+    pub(in crate::app) fn follow(&mut self, view: &View, session: &Session) {
+        let beta = view.scenario.parameters.beta;
+        let ceiling = map::ceiling(view.map, beta);
         if view.scenario.model.modes > 1 {
-            self.ask_tongues(&view.scenario, map::ceiling(view.map, view.scenario.parameters.beta));
+            self.ask_tongues(&view.scenario, ceiling);
+        }
+        match (view.tab, &session.boundaries) {
+            (Tab::Stability, Some(boundaries)) if view.layer == Layer::Multiplier => {
+                self.ask_multipliers(questions::chart(view, boundaries));
+            }
+            (Tab::Sweep, _) => {
+                self.ask_sweep(questions::sweep(view, session));
+                self.ask_response(questions::response(view, session));
+            }
+            _ => {}
         }
     }
 
@@ -99,16 +117,30 @@ impl Studies {
     }
 
     /// Asks for a chart, unless it was the last one asked for.
-    pub(in crate::app) fn ask_multipliers(&mut self, question: MultiplierQuestion) {
+    fn ask_multipliers(&mut self, question: MultiplierQuestion) {
         if self.multipliers.study().is_none_or(|chart| *chart.question() != question) {
             self.multipliers.ask(MultiplierChart::new(question));
         }
     }
 
     /// Asks for a sweep both ways, unless it was the last one asked for.
-    pub(in crate::app) fn ask_sweep(&mut self, question: SweepQuestion) {
+    fn ask_sweep(&mut self, question: SweepQuestion) {
         if self.sweep.study().is_none_or(|sweep| *sweep.question() != question) {
             self.sweep.ask(SweepStudy::new(question, &[Direction::Up, Direction::Down]));
         }
+    }
+
+    /// Asks for response curves, unless they were asked for last; finished ones are kept until the new ones are there.
+    fn ask_response(&mut self, question: ResponseQuestion) {
+        if self.response.study().is_none_or(|response| *response.question() != question) {
+            let old = self.response.ask(ResponseStudy::new(question));
+            self.response_before = old.filter(ResponseStudy::finished).or(self.response_before.take());
+        }
+    }
+
+    /// The response curves to draw, and whether they are the newest.
+    pub(in crate::app) fn response(&self) -> Option<(&ResponseStudy, bool)> {
+        let newest = self.response.study().filter(|response| response.finished());
+        newest.map(|newest| (newest, true)).or(self.response_before.as_ref().map(|before| (before, false)))
     }
 }

@@ -2,10 +2,14 @@
 
 use egui::{Ui, vec2};
 
-use super::{Context, phase_portrait, poincare_map, stability_map, time_history, verdict};
+use super::{
+    Context, chart, multipliers, orbit_diagram, phase_portrait, poincare_map, response, stability_map,
+    time_history, verdict,
+};
 use crate::app::view::Panel;
 
-const GAP: f32 = 10.0;
+/// Space between cards.
+pub(super) const GAP: f32 = 10.0;
 /// Least height of a plot's card.
 const LEAST_HEIGHT: f32 = 270.0;
 /// Width from which two cards stand side by side.
@@ -15,13 +19,18 @@ const TWO_COLUMNS: f32 = 640.0;
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
     ui.add_space(GAP);
-    if let Some(panel) = context.view.enlarged {
+    let panels = [Panel::StabilityMap, Panel::PhasePortrait, Panel::PoincareMap, Panel::TimeHistory];
+    cards(context, ui, &panels);
+}
+
+/// These panels side by side, or the one of them that fills the page.
+pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui, panels: &[Panel]) {
+    if let Some(panel) = context.view.enlarged.filter(|panel| panels.contains(panel)) {
         let height = ui.available_height().max(LEAST_HEIGHT);
         place(ui, ui.available_width(), height, |ui| draw(context, ui, panel));
         return;
     }
-    let panels = [Panel::StabilityMap, Panel::PhasePortrait, Panel::PoincareMap, Panel::TimeHistory];
-    grid(ui, &panels, |ui, panel| draw(context, ui, *panel));
+    grid(ui, panels, |ui, panel| draw(context, ui, *panel));
 }
 
 /// Lays out cards of equal size in one or two columns that fill the page, or more when it is low.
@@ -57,5 +66,9 @@ fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
         Panel::PhasePortrait => phase_portrait::show(context, ui),
         Panel::PoincareMap => poincare_map::show(context, ui),
         Panel::TimeHistory => time_history::show(context, ui),
+        Panel::Chart => chart::show(context, ui),
+        Panel::Multipliers => multipliers::show(context, ui),
+        Panel::OrbitDiagram => orbit_diagram::show(context, ui),
+        Panel::Response => response::show(context, ui),
     }
 }

@@ -1,7 +1,7 @@
 //! The (omega, beta) plane with the boundaries of both theories and the operating point to drag.
 
 use egui::Ui;
-use egui_plot::{PlotBounds, PlotPoint};
+use egui_plot::{PlotBounds, PlotPoint, PlotResponse};
 
 use super::Context;
 use crate::app::command::Command;
@@ -34,15 +34,8 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
-    let mut window = context.view.map;
     ui.horizontal_wrapped(|ui| {
-        let windows = [
-            (MapWindow::All, "all"),
-            (MapWindow::First, "2ω₁"),
-            (MapWindow::Sum, "ω₁+ω₂"),
-            (MapWindow::Second, "2ω₂"),
-        ];
-        chips(ui, "Resonance", &mut window, &windows);
+        choose_window(context, ui);
         ui.add_space(6.0);
         legend::legend(
             ui,
@@ -53,7 +46,18 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             ],
         );
     });
-    if window != context.view.map {
+}
+
+/// The choice of the resonance to look at.
+pub(super) fn choose_window(context: &mut Context<'_>, ui: &mut Ui) {
+    let mut window = context.view.map;
+    let windows = [
+        (MapWindow::All, "all"),
+        (MapWindow::First, "2ω₁"),
+        (MapWindow::Sum, "ω₁+ω₂"),
+        (MapWindow::Second, "2ω₂"),
+    ];
+    if chips(ui, "Resonance", &mut window, &windows) {
         context.commands.push(Command::LookAt(window));
     }
 }
@@ -91,10 +95,23 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         for border in &exact {
             plot_style::series(plot, kind, "exact boundary", border);
         }
-        label_regions(plot, boundaries, window, ceiling);
+        let region = if current { Series::Exact } else { Series::Coupled };
+        label_regions(plot, boundaries, window, ceiling, region);
         plot_style::points(plot, Series::Ghost, "pinned", pinned.as_slice());
     });
-    let drag = plot_style::operating_point(ui, &shown, "Operating point", [p.omega, p.beta]);
+    drag_point(context, ui, &shown, (low, high), ceiling);
+}
+
+/// Lets the operating point be dragged over a plot of the (omega, beta) plane that was just shown.
+pub(super) fn drag_point<R>(
+    context: &mut Context<'_>,
+    ui: &Ui,
+    shown: &PlotResponse<R>,
+    (low, high): (f64, f64),
+    ceiling: f64,
+) {
+    let p = context.view.scenario.parameters;
+    let drag = plot_style::operating_point(ui, shown, "Operating point", [p.omega, p.beta]);
     if let Some([omega, beta]) = drag.moved {
         let (least, most) = Parameter::Omega.range();
         context.edit(|scenario| {
@@ -105,7 +122,7 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
 }
 
 /// The exact tongues' borders in the order of the boundaries' tongues, and whether they belong to the device in view.
-fn exact_borders(context: &Context<'_>, boundaries: &Boundaries) -> (Vec<Vec<PlotPoint>>, bool) {
+pub(super) fn exact_borders(context: &Context<'_>, boundaries: &Boundaries) -> (Vec<Vec<PlotPoint>>, bool) {
     let found = context.studies.tongues(&boundaries.structure);
     let border = |resonance| match found.map(|(study, _)| study.tongue(resonance)) {
         Some(Traced::Done(Some(tongue))) => {
@@ -118,7 +135,13 @@ fn exact_borders(context: &Context<'_>, boundaries: &Boundaries) -> (Vec<Vec<Plo
 }
 
 /// Names of the regions where there is room for them.
-fn label_regions(plot: &mut egui_plot::PlotUi<'_>, boundaries: &Boundaries, window: MapWindow, ceiling: f64) {
+fn label_regions(
+    plot: &mut egui_plot::PlotUi<'_>,
+    boundaries: &Boundaries,
+    window: MapWindow,
+    ceiling: f64,
+    kind: Series,
+) {
     let name = |resonance| match resonance {
         Resonance::Sum => "combination",
         Resonance::First | Resonance::Second => "period doubling",
@@ -129,7 +152,7 @@ fn label_regions(plot: &mut egui_plot::PlotUi<'_>, boundaries: &Boundaries, wind
         let Some(tip) = lowest.filter(|tip| tip.y < 0.8 * ceiling) else { continue };
         if window == MapWindow::All || window.resonance() == Some(tongue.resonance) {
             let height = tip.y + 0.82 * (ceiling - tip.y);
-            plot_style::labelled_place(plot, name(tongue.resonance), [tip.x, height], Series::Coupled);
+            plot_style::labelled_place(plot, name(tongue.resonance), [tip.x, height], kind);
         }
     }
 }

@@ -48,7 +48,13 @@ fn title(ui: &mut Ui) {
 
 fn choose_tab(context: &mut Context<'_>, ui: &mut Ui) {
     let mut tab = context.view.tab;
-    if tabs(ui, &mut tab, &[(Tab::Explore, "Explore"), (Tab::Paper, "Paper")]) {
+    let all = [
+        (Tab::Explore, "Explore"),
+        (Tab::Stability, "Stability"),
+        (Tab::Sweep, "Sweep"),
+        (Tab::Paper, "Paper"),
+    ];
+    if tabs(ui, &mut tab, &all) {
         context.commands.push(Command::OpenTab(tab));
     }
 }

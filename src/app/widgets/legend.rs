@@ -21,6 +21,14 @@ pub enum Series {
     Exact,
     /// Poincaré points.
     Poincare,
+    /// Reached by a sweep upwards: small discs.
+    Up,
+    /// Reached by a sweep downwards: small rings.
+    Down,
+    /// A stable branch: a solid line.
+    Stable,
+    /// An unstable branch: short dashes.
+    Unstable,
     /// Pinned for comparison: a thin grey line.
     Ghost,
 }
@@ -36,6 +44,8 @@ pub enum Pen {
     Dots(f32, f32),
     /// Points of this radius where the data are, points.
     Points(f32),
+    /// Rings of this radius where the data are, points.
+    Rings(f32),
 }
 
 impl Series {
@@ -48,6 +58,9 @@ impl Series {
             Self::Coupled => tokens.coupled,
             Self::Exact => tokens.exact,
             Self::Poincare => tokens.poincare,
+            Self::Up => tokens.numeric,
+            Self::Down => tokens.warning,
+            Self::Stable | Self::Unstable => tokens.ok,
             Self::Ghost => tokens.ghost,
         }
     }
@@ -61,6 +74,10 @@ impl Series {
             Self::Coupled => Pen::Dashes(1.8, 9.0),
             Self::Exact => Pen::Line(3.0),
             Self::Poincare => Pen::Points(3.5),
+            Self::Up => Pen::Points(2.6),
+            Self::Down => Pen::Rings(3.2),
+            Self::Stable => Pen::Line(2.4),
+            Self::Unstable => Pen::Dashes(1.5, 5.0),
             Self::Ghost => Pen::Line(1.0),
         }
     }
@@ -92,6 +109,9 @@ pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
         }
         Pen::Points(radius) => {
             ui.painter().circle_filled(left.lerp(right, 0.5), radius, colour);
+        }
+        Pen::Rings(radius) => {
+            ui.painter().circle_stroke(left.lerp(right, 0.5), radius, Stroke::new(1.2, colour));
         }
     }
     let at = pos2(rect.left() + 27.0, rect.center().y - 0.5 * galley.size().y);

@@ -9,6 +9,8 @@ pub mod legend;
 pub mod number;
 pub mod parameter_slider;
 pub mod plot_style;
+pub mod raster;
+pub mod swatch;
 pub mod tabs;
 
 #[cfg(test)]
@@ -21,4 +23,6 @@ pub use fold::Fold;
 pub use icon::{Icon, icon_button};
 pub use legend::{Series, legend_entry};
 pub use parameter_slider::{Mark, ParameterSlider, SliderResponse};
+pub use raster::{draw_raster, raster};
+pub use swatch::{colour_bar, swatches};
 pub use tabs::{chips, tabs};

@@ -5,6 +5,7 @@ use super::work::{Finding, Work};
 pub mod answers;
 pub mod mosaic;
 pub mod multiplier_chart;
+pub mod response;
 pub mod sweep;
 pub mod tongues;
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Study;
+use crate::jobs::response::check_range;
 use crate::jobs::work::{Column, Finding, Work};
 use crate::model::{ModelError, Parameter};
 use crate::scenario::Scenario;
@@ -34,11 +35,8 @@ impl MultiplierQuestion {
     /// [`ModelError`] naming what is out of range.
     pub fn validate(&self) -> Result<(), ModelError> {
         self.scenario.validate()?;
-        for (parameter, (low, high)) in [(Parameter::Omega, self.omega), (Parameter::Beta, self.beta)] {
-            let (minimum, maximum) = parameter.range();
-            ModelError::check(parameter.field(), low, (minimum, maximum), "")?;
-            ModelError::check(parameter.field(), high, (low, maximum), "")?;
-        }
+        check_range(Parameter::Omega, self.omega)?;
+        check_range(Parameter::Beta, self.beta)?;
         for (field, value) in [("columns", self.size.0), ("rows", self.size.1)] {
             let (minimum, maximum) = SIZES;
             if !(minimum..=maximum).contains(&value) {
@@ -161,7 +159,8 @@ impl MultiplierChart {
     /// Whether the forced motion's stability changes with amplitude near a column.
     fn changes_at(&self, column: usize) -> bool {
         let reach = self.stride();
-        let near = (column.saturating_sub(reach)..=column + reach).filter_map(|i| self.coarse.get(i)?.as_ref());
+        let near =
+            (column.saturating_sub(reach)..=column + reach).filter_map(|i| self.coarse.get(i)?.as_ref());
         let stable = |value: &Option<f64>| value.is_some_and(|modulus| modulus < 1.0);
         let mut near = near.peekable();
         let Some(first) = near.peek().map(|values| values.modulus.first().is_some_and(stable)) else {
@@ -193,8 +192,7 @@ impl Study for MultiplierChart {
         let handed = if coarse { &mut self.handed_coarse } else { &mut self.handed };
         columns.iter().for_each(|i| handed[*i] = true);
         let question = &self.question;
-        let rows: Vec<usize> =
-            if coarse { self.coarse_rows.clone() } else { (0..question.size.1).collect() };
+        let rows: Vec<usize> = if coarse { self.coarse_rows.clone() } else { (0..question.size.1).collect() };
         let work = Work::Columns {
             scenario: question.scenario.clone(),
             omegas: columns.iter().map(|i| question.omega_at(*i)).collect(),
@@ -240,8 +238,7 @@ mod tests {
     fn a_chart_is_complete_and_holds_what_one_column_holds() {
         let parameters = ParameterSet { alpha: 1e-4, ..Default::default() };
         let scenario = Scenario { parameters, ..Default::default() };
-        let question =
-            MultiplierQuestion { scenario, omega: (7.9, 8.3), beta: (1e-4, 4e-3), size: (37, 21) };
+        let question = MultiplierQuestion { scenario, omega: (7.9, 8.3), beta: (1e-4, 4e-3), size: (37, 21) };
         question.validate().expect("a valid chart");
         let mut chart = MultiplierChart::new(question.clone());
         complete(&mut chart);
@@ -264,8 +261,12 @@ mod tests {
 
     #[test]
     fn sizes_and_ranges_are_checked() {
-        let question =
-            |omega, size| MultiplierQuestion { scenario: Scenario::default(), omega, beta: (0.0, 0.01), size };
+        let question = |omega, size| MultiplierQuestion {
+            scenario: Scenario::default(),
+            omega,
+            beta: (0.0, 0.01),
+            size,
+        };
         assert!(question((5.0, 6.0), (16, 16)).validate().is_ok());
         assert!(question((5.0, 4.0), (16, 16)).validate().is_err());
         assert!(question((5.0, 600.0), (16, 16)).validate().is_err());

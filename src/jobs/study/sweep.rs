@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Study;
 use crate::dynamics::sweep::{Dwell, SweepPoint};
+use crate::jobs::response::check_range;
 use crate::jobs::work::{Finding, Work};
 use crate::model::{ModelError, Parameter};
 use crate::scenario::Scenario;
@@ -46,10 +47,7 @@ impl SweepQuestion {
     /// [`ModelError`] naming what is out of range.
     pub fn validate(&self) -> Result<(), ModelError> {
         self.scenario.validate()?;
-        let (minimum, maximum) = self.parameter.range();
-        let (low, high) = self.range;
-        ModelError::check(self.parameter.field(), low, (minimum, maximum), "")?;
-        ModelError::check(self.parameter.field(), high, (low, maximum), "")?;
+        check_range(self.parameter, self.range)?;
         let (minimum, maximum) = COUNTS;
         if !(minimum..=maximum).contains(&self.count) {
             return Err(ModelError::Count { field: "count", value: self.count, minimum, maximum });

@@ -12,7 +12,7 @@ pub fn series<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [P
         Pen::Line(width) => (width, LineStyle::Solid),
         Pen::Dashes(width, length) => (width, LineStyle::Dashed { length }),
         Pen::Dots(radius, spacing) => (radius, LineStyle::Dotted { spacing }),
-        Pen::Points(_) => return points(plot, kind, name, curve),
+        Pen::Points(_) | Pen::Rings(_) => return points(plot, kind, name, curve),
     };
     for run in finite_runs(curve) {
         let line = Line::new(name, PlotPoints::Borrowed(run)).color(colour).width(width).style(style);
@@ -32,6 +32,7 @@ pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [
     };
     for run in finite_runs(places) {
         let dots = Points::new(name, PlotPoints::Borrowed(run)).color(colour.gamma_multiply(opacity));
+        let dots = dots.filled(!matches!(kind.pen(), Pen::Rings(_)));
         plot.points(dots.radius(radius).allow_hover(kind != Series::Ghost));
     }
 }

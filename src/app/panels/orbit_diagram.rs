@@ -1,0 +1,91 @@
+//! Stroboscopic points along a sweep, up and down.
+
+use egui::{RichText, Ui};
+use egui_plot::{PlotPoint, VLine};
+
+use super::{Context, sweep};
+use crate::app::theme;
+use crate::app::view::Panel;
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Series, legend};
+use crate::jobs::study::Study as _;
+use crate::jobs::study::sweep::{Direction, SweepStudy};
+
+/// Draws the card.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = match context.studies.sweep.study() {
+        Some(sweep) if !sweep.finished() => format!("computing {:.0} %", 100.0 * sweep.progress()),
+        _ => "click to go there".to_owned(),
+    };
+    context.plot_card(ui, Panel::OrbitDiagram, "Orbit diagram", &hint, diagram);
+}
+
+fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(study) = context.studies.sweep.study() else { return };
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 14.0;
+        legend::legend_entry(ui, Series::Up, "upwards");
+        legend::legend_entry(ui, Series::Down, "downwards");
+        ui.label(RichText::new(said(study)).small().color(theme::tokens(ui).text_weak));
+    });
+    if let Some(message) = study.failure() {
+        let rect = ui.available_rect_before_wrap();
+        plot_style::no_data(ui, rect, message);
+        return;
+    }
+    let ways = [Direction::Up, Direction::Down].map(|direction| strobe(study, direction));
+    let (name, symbol) = sweep::title(study.question().parameter);
+    let (x, y) = (Axis::new(name, symbol), Axis::new("voltage at t = 2πk/ω", "v").unit("V"));
+    let range = study.question().range;
+    let colour = theme::tokens(ui).ruler;
+    let value = study.question().parameter.get(&context.view.scenario.parameters);
+    let response = plot_style::plot(ui, ("orbit diagram", study.question().parameter), &x, &y)
+        .include_x(range.0)
+        .include_x(range.1)
+        .show(ui, |plot| {
+            plot.vline(VLine::new("", value).color(colour).width(1.0).allow_hover(false));
+            plot_style::points(plot, Series::Down, "downwards", &ways[1]);
+            plot_style::points(plot, Series::Up, "upwards", &ways[0]);
+        });
+    go_where_clicked(context, &response, study);
+}
+
+/// What is carried over and thrown away, in a few words.
+fn said(study: &SweepStudy) -> String {
+    let dwell = study.question().dwell;
+    let restarts = [Direction::Up, Direction::Down]
+        .iter()
+        .flat_map(|direction| study.points(*direction).iter().skip(1))
+        .filter(|point| point.restarted)
+        .count();
+    let mut text = format!(
+        "state carried from value to value; {} periods dropped, {} kept",
+        dwell.discarded, dwell.kept
+    );
+    if restarts > 0 {
+        text += &format!("; {restarts} restarted after an escape or contact");
+    }
+    text
+}
+
+fn strobe(study: &SweepStudy, direction: Direction) -> Vec<PlotPoint> {
+    let points = study.points(direction).iter();
+    points.flat_map(|point| point.strobe.iter().map(|v| PlotPoint::new(point.value, *v))).collect()
+}
+
+/// A click sets the swept parameter to the value clicked at.
+pub(super) fn go_where_clicked<R>(
+    context: &mut Context<'_>,
+    plot: &egui_plot::PlotResponse<R>,
+    study: &SweepStudy,
+) {
+    let clicked = plot.response.clicked().then(|| plot.response.interact_pointer_pos()).flatten();
+    let Some(at) = clicked else { return };
+    let (low, high) = study.question().range;
+    let value = plot.transform.value_from_position(at).x.clamp(low, high);
+    let parameter = study.question().parameter;
+    context.edit(|scenario| {
+        *parameter.get_mut(&mut scenario.parameters) =
+            crate::app::widgets::number::round_significant(value, 5);
+    });
+}

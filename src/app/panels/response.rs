@@ -1,0 +1,165 @@
+//! Response curves: what a sweep reached, over the periodic motions that there are, stable and unstable.
+
+use egui::Ui;
+use egui_plot::{PlotPoint, VLine};
+
+use super::{Context, orbit_diagram, sweep};
+use crate::app::theme;
+use crate::app::view::{Output, Panel};
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Series, legend};
+use crate::dynamics::Instability;
+use crate::dynamics::sweep::SweepPoint;
+use crate::jobs::response::{ResponseCurve, ResponsePoint};
+use crate::jobs::study::sweep::{Direction, SweepStudy};
+use crate::model::{Device, ParameterSet, ReducedSystem};
+
+/// Draws the card.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = match context.studies.response() {
+        Some((_, true)) => "solid: stable, dashed: unstable",
+        _ => "following the branches",
+    };
+    context.plot_card(ui, Panel::Response, "Response curves", hint, curves);
+}
+
+/// What the vertical axis measures, from the numbers of a point.
+struct Measure {
+    output: Output,
+    /// Microwatts of a dimensionless power of 1.
+    microwatts: f64,
+    gap: f64,
+}
+
+impl Measure {
+    fn new(output: Output, system: &ReducedSystem) -> Self {
+        // V^2 / R over kappa v^2, the same for every load.
+        let kappa = ParameterSet::default().kappa;
+        let resistance = Device::default().resistance_of(kappa);
+        let microwatts = resistance.map_or(0.0, |resistance| 1e6 / (resistance * kappa));
+        Self { output, microwatts, gap: system.equilibrium.gap }
+    }
+
+    fn axis(&self) -> Axis {
+        match self.output {
+            Output::Voltage => Axis::new("voltage, rms", "v").unit("V"),
+            Output::Power => Axis::new("power in the load", "P").unit("µW"),
+            Output::Tip => Axis::new("tip over the gap", "s/s₀"),
+        }
+    }
+
+    /// One value, or two where there is a range.
+    fn values(&self, v_rms: f64, power: f64, tip: (f64, f64)) -> Vec<f64> {
+        match self.output {
+            Output::Voltage => vec![v_rms],
+            Output::Power => vec![self.microwatts * power],
+            Output::Tip => vec![tip.0 / self.gap, tip.1 / self.gap],
+        }
+    }
+
+    fn of(&self, point: &ResponsePoint) -> Vec<f64> {
+        self.values(point.v_rms, point.power, point.tip)
+    }
+}
+
+fn curves(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(study) = context.studies.sweep.study() else { return };
+    let Some(shown) = context.shown() else { return };
+    let measure = Measure::new(context.view.sweep.output, &shown.run.system);
+    legend::legend(
+        ui,
+        &[
+            (Series::Up, "upwards"),
+            (Series::Down, "downwards"),
+            (Series::Stable, "stable"),
+            (Series::Unstable, "unstable"),
+        ],
+    );
+    let found = context.studies.response();
+    if let Some((response, true)) = found
+        && let Some(Err(message)) = response.found()
+    {
+        ui.label(egui::RichText::new(message).small().color(theme::tokens(ui).warning));
+    }
+    let matching = found.filter(|(response, _)| response.question().parameter == study.question().parameter);
+    let branches = match matching.and_then(|(response, _)| response.found()) {
+        Some(Ok(curves)) => curves.as_slice(),
+        _ => &[],
+    };
+    let lines: Vec<(Series, String, Vec<PlotPoint>)> =
+        branches.iter().flat_map(|curve| lines(curve, &measure)).collect();
+    let marks: Vec<(String, [f64; 2])> = branches.iter().flat_map(|curve| marks(curve, &measure)).collect();
+    let ways = [Direction::Up, Direction::Down].map(|direction| reached(study, direction, &measure));
+    let current = matching.is_some_and(|(_, current)| current);
+    let (name, symbol) = sweep::title(study.question().parameter);
+    let (x, y) = (Axis::new(name, symbol), measure.axis());
+    let range = study.question().range;
+    let colour = theme::tokens(ui).ruler;
+    let value = study.question().parameter.get(&context.view.scenario.parameters);
+    let id = ("response", study.question().parameter, context.view.sweep.output as u8);
+    let response = plot_style::plot(ui, id, &x, &y)
+        .include_x(range.0)
+        .include_x(range.1)
+        .include_y(0.0)
+        .show(ui, |plot| {
+            plot.vline(VLine::new("", value).color(colour).width(1.0).allow_hover(false));
+            for (kind, name, line) in &lines {
+                plot_style::series(plot, if current { *kind } else { Series::Ghost }, name, line);
+            }
+            plot_style::points(plot, Series::Down, "downwards", &ways[1]);
+            plot_style::points(plot, Series::Up, "upwards", &ways[0]);
+            for (name, place) in &marks {
+                plot_style::labelled_place(plot, name, *place, Series::Stable);
+            }
+        });
+    orbit_diagram::go_where_clicked(context, &response, study);
+}
+
+fn reached(study: &SweepStudy, direction: Direction, measure: &Measure) -> Vec<PlotPoint> {
+    let values = |point: &SweepPoint| {
+        measure
+            .values(point.v_rms, point.power, point.tip)
+            .into_iter()
+            .map(move |y| (point.value, y))
+            .collect::<Vec<_>>()
+    };
+    let points = study.points(direction).iter().filter(|point| !point.ended);
+    points.flat_map(values).map(|(x, y)| PlotPoint::new(x, y)).collect()
+}
+
+/// The stable and unstable stretches of a branch; neighbours share their border.
+fn lines(curve: &ResponseCurve, measure: &Measure) -> Vec<(Series, String, Vec<PlotPoint>)> {
+    let name = match curve.periods {
+        1 => "forced motion".to_owned(),
+        periods => format!("period {periods}"),
+    };
+    let sides = curve.points.first().map_or(0, |point| measure.of(point).len());
+    let mut lines = Vec::new();
+    for side in 0..sides {
+        let mut rest = curve.points.as_slice();
+        while let Some(first) = rest.first() {
+            let stable = first.multiplier < 1.0;
+            let count = rest.iter().take_while(|point| (point.multiplier < 1.0) == stable).count();
+            let reach = (count + 1).min(rest.len());
+            let line = rest[..reach].iter().map(|point| PlotPoint::new(point.value, measure.of(point)[side]));
+            let kind = if stable { Series::Stable } else { Series::Unstable };
+            lines.push((kind, name.clone(), line.collect()));
+            rest = &rest[count..];
+        }
+    }
+    lines
+}
+
+/// Short names of the bifurcations, beside where they are.
+fn marks(curve: &ResponseCurve, measure: &Measure) -> Vec<(String, [f64; 2])> {
+    let name = |kind| match kind {
+        Instability::Fold => "fold",
+        Instability::PeriodDoubling => "PD",
+        Instability::NeimarkSacker => "NS",
+    };
+    let place = |change: &crate::jobs::response::Change| {
+        let y = measure.of(&change.point).first().copied().unwrap_or_default();
+        (name(change.kind).to_owned(), [change.point.value, y])
+    };
+    curve.changes.iter().map(place).collect()
+}

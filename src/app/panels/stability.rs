@@ -1,0 +1,13 @@
+//! The Stability tab: where the forced motion is stable, how it stops being so, and what else there is.
+
+use egui::Ui;
+
+use super::{Context, explore, verdict};
+use crate::app::view::Panel;
+
+/// Draws the tab.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    verdict::show(context, ui);
+    ui.add_space(explore::GAP);
+    explore::cards(context, ui, &[Panel::Chart, Panel::Multipliers]);
+}

@@ -1,0 +1,117 @@
+//! The Sweep tab: the motion along a range of one parameter, up and down, and the periodic motions that there are.
+
+use egui::{RichText, Ui};
+
+use super::{Context, explore, verdict};
+use crate::app::command::Command;
+use crate::app::view::{Output, Panel, SweepView};
+use crate::app::widgets::{Card, ParameterSlider, chips};
+use crate::app::{questions, theme};
+use crate::dynamics::sweep::Dwell;
+use crate::model::Parameter;
+
+/// The parameters that can be swept, with their symbols.
+const PARAMETERS: [(Parameter, &str); 8] = [
+    (Parameter::Omega, "ω"),
+    (Parameter::Beta, "β"),
+    (Parameter::Alpha, "α"),
+    (Parameter::D, "d"),
+    (Parameter::C0, "c₀"),
+    (Parameter::Eta, "η"),
+    (Parameter::Kappa, "κ"),
+    (Parameter::Theta, "θ"),
+];
+/// Periods thrown away and kept.
+const HOLDS: [(Dwell, &str); 3] = [
+    (Dwell { discarded: 60, kept: 32 }, "60 + 32"),
+    (Dwell { discarded: 200, kept: 64 }, "200 + 64"),
+    (Dwell { discarded: 1000, kept: 128 }, "1000 + 128"),
+];
+const COUNTS: [(usize, &str); 3] = [(120, "120"), (240, "240"), (600, "600")];
+/// Width from which the choices stand in one row.
+const WIDE: f32 = 700.0;
+
+/// Draws the tab.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    verdict::show(context, ui);
+    ui.add_space(explore::GAP);
+    choices(context, ui);
+    ui.add_space(explore::GAP);
+    explore::cards(context, ui, &[Panel::OrbitDiagram, Panel::Response]);
+}
+
+/// The symbol of a parameter, and its name as an axis title.
+pub(super) fn title(parameter: Parameter) -> (&'static str, &'static str) {
+    let name = match parameter {
+        Parameter::Alpha => "damping",
+        Parameter::Beta => "excitation amplitude",
+        Parameter::Omega => "excitation frequency",
+        Parameter::C0 => "magnet strength",
+        Parameter::D => "gap",
+        Parameter::H => "magnet length",
+        Parameter::Eta => "tip mass",
+        Parameter::C => "capacitance",
+        Parameter::Kappa => "load conductance",
+        Parameter::Theta => "coupling",
+    };
+    let symbol = match parameter {
+        Parameter::H => "h",
+        Parameter::C => "c",
+        _ => PARAMETERS.iter().find(|(other, _)| *other == parameter).map_or("", |(_, symbol)| symbol),
+    };
+    (name, symbol)
+}
+
+fn choices(context: &mut Context<'_>, ui: &mut Ui) {
+    let mut sweep = context.view.sweep;
+    let wide = ui.available_width() >= WIDE;
+    Card::new("").hugging().show(ui, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 8.0;
+            label(ui, "Sweep");
+            if chips(ui, "Swept parameter", &mut sweep.parameter, &PARAMETERS) {
+                sweep.range = None;
+            }
+            label(ui, "values");
+            chips(ui, "Number of values", &mut sweep.count, &COUNTS);
+            label(ui, "periods dropped + kept");
+            chips(ui, "Periods", &mut sweep.dwell, &HOLDS);
+            label(ui, "curves of");
+            let outputs = [(Output::Voltage, "voltage"), (Output::Power, "power"), (Output::Tip, "tip")];
+            chips(ui, "Response of", &mut sweep.output, &outputs);
+        });
+        ui.add_space(4.0);
+        let range = questions::sweep_range(context.view, context.session);
+        if wide {
+            ui.columns(2, |columns| ends(columns, &mut sweep, range));
+        } else {
+            ends(std::slice::from_mut(ui), &mut sweep, range);
+        }
+    });
+    if sweep != context.view.sweep {
+        context.commands.push(Command::Sweep(sweep));
+    }
+}
+
+/// The sliders for both ends of the range, one a column.
+fn ends(columns: &mut [Ui], sweep: &mut SweepView, range: (f64, f64)) {
+    let (minimum, maximum) = sweep.parameter.range();
+    let (_, symbol) = title(sweep.parameter);
+    let (mut low, mut high) = range;
+    let logarithmic = minimum >= 0.0 && sweep.parameter != Parameter::Omega;
+    let end = |ui: &mut Ui, name: &str, value: &mut f64| {
+        let slider = ParameterSlider::new(name, symbol, value, minimum..=maximum).compact();
+        if logarithmic { slider.logarithmic() } else { slider }.show(ui);
+    };
+    let last = columns.len() - 1;
+    end(&mut columns[0], "From", &mut low);
+    end(&mut columns[last], "To", &mut high);
+    if (low, high) != range {
+        sweep.range = Some((low, high));
+    }
+}
+
+fn label(ui: &mut Ui, text: &str) {
+    let colour = theme::tokens(ui).text_weak;
+    ui.label(RichText::new(text).small().color(colour));
+}

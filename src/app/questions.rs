@@ -1,0 +1,110 @@
+//! What the view asks the crew: the questions behind charts, sweeps and curves.
+
+use super::map::{self, Boundaries};
+use super::session::Session;
+use super::view::View;
+use crate::jobs::study::multiplier_chart::MultiplierQuestion;
+use crate::jobs::study::response::ResponseQuestion;
+use crate::jobs::study::sweep::SweepQuestion;
+use crate::model::Parameter;
+use crate::scenario::Scenario;
+
+/// Columns and rows of the chart of multipliers.
+const CHART: (usize, usize) = (256, 256);
+/// A structural parameter is swept from its value over this to its value times this.
+const SPAN: f64 = 4.0;
+/// A sweep that would be empty is widened to this fraction of the parameter's whole range.
+const LEAST_SPAN: f64 = 1e-3;
+
+/// The chart over the window of the map.
+pub(super) fn chart(view: &View, boundaries: &Boundaries) -> MultiplierQuestion {
+    let (low, high) = boundaries.range(view.map);
+    let omega = (low.max(Parameter::Omega.range().0), high);
+    let beta = (0.0, map::ceiling(view.map, view.scenario.parameters.beta));
+    let mut scenario = with(&view.scenario, Parameter::Omega, omega.0);
+    scenario.parameters.beta = 0.0;
+    scenario.initial = None;
+    MultiplierQuestion { scenario, omega, beta, size: CHART }
+}
+
+/// The sweep that the tab shows.
+pub(super) fn sweep(view: &View, session: &Session) -> SweepQuestion {
+    let parameter = view.sweep.parameter;
+    let range = sweep_range(view, session);
+    let scenario = with(&view.scenario, parameter, range.0);
+    SweepQuestion { scenario, parameter, range, count: view.sweep.count, dwell: view.sweep.dwell }
+}
+
+/// The response curves over the same range.
+pub(super) fn response(view: &View, session: &Session) -> ResponseQuestion {
+    let parameter = view.sweep.parameter;
+    let range = sweep_range(view, session);
+    let scenario = Scenario { initial: None, ..with(&view.scenario, parameter, range.0) };
+    ResponseQuestion { scenario, parameter, range }
+}
+
+/// The range chosen, or one that shows what is near: the window of the map, or a span about the present value.
+pub(super) fn sweep_range(view: &View, session: &Session) -> (f64, f64) {
+    let parameter = view.sweep.parameter;
+    let (minimum, maximum) = parameter.range();
+    let value = parameter.get(&view.scenario.parameters);
+    let (low, high) = match (view.sweep.range, parameter, &session.boundaries) {
+        (Some(range), ..) => range,
+        (None, Parameter::Omega, Some(boundaries)) => {
+            let (low, high) = boundaries.range(view.map);
+            (low.max(0.1 * high), high)
+        }
+        (None, Parameter::Beta, _) => (0.0, map::ceiling(view.map, value)),
+        _ if value == 0.0 => (minimum, maximum),
+        _ => (value / SPAN, value * SPAN),
+    };
+    let (low, high) = (low.min(high).clamp(minimum, maximum), low.max(high).clamp(minimum, maximum));
+    let least = LEAST_SPAN * (maximum - minimum);
+    if high - low >= least {
+        (low, high)
+    } else {
+        (low.min(maximum - least), low.min(maximum - least) + least)
+    }
+}
+
+/// The scenario with what plays no role in a question set to a fixed value, so that it does not make it a new one.
+fn with(scenario: &Scenario, parameter: Parameter, value: f64) -> Scenario {
+    let mut scenario = Scenario { t_end: Scenario::default().t_end, ..scenario.clone() };
+    *parameter.get_mut(&mut scenario.parameters) = value;
+    scenario
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_excitation_in_view_does_not_make_another_chart() {
+        let mut view = View::default();
+        let (system, _) = view.scenario.validate().expect("a valid start");
+        let boundaries = Boundaries::new(map::Structure::of(&view.scenario), &system);
+        let before = chart(&view, &boundaries);
+        view.scenario.parameters.beta *= 0.9;
+        view.scenario.parameters.omega += 0.1;
+        assert_eq!(chart(&view, &boundaries), before);
+        assert!(before.validate().is_ok());
+        view.scenario.parameters.alpha *= 2.0;
+        assert_ne!(chart(&view, &boundaries), before);
+    }
+
+    #[test]
+    fn every_parameter_has_a_range_to_sweep() {
+        let mut view = View::default();
+        let mut session = Session::default();
+        session.ask(&view.scenario);
+        for parameter in Parameter::ALL {
+            view.sweep.parameter = parameter;
+            for value in [Some((3.0, 1.0)), Some((1e9, -1e9)), Some((2.0, 2.0)), None] {
+                view.sweep.range = value;
+                let question = sweep(&view, &session);
+                assert!(question.validate().is_ok(), "{parameter:?} {value:?} {:?}", question.range);
+                assert!(question.range.1 > question.range.0);
+            }
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Legends of charts: what a colour stands for.
+
+use egui::{Color32, Mesh, Response, Sense, Shape, Ui, WidgetInfo, pos2, vec2};
+
+use crate::app::{fonts, theme};
+
+const SIDE: f32 = 12.0;
+
+/// Coloured squares with their meaning; the row breaks where it is too narrow.
+pub fn swatches(ui: &mut Ui, entries: &[(Color32, &str)]) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(12.0, 0.0);
+        for (colour, meaning) in entries {
+            swatch(ui, *colour, meaning);
+        }
+    });
+}
+
+fn swatch(ui: &mut Ui, colour: Color32, meaning: &str) -> Response {
+    let tokens = theme::tokens(ui);
+    let font = fonts::regular(theme::size::SMALL);
+    let galley = ui.painter().layout_no_wrap(meaning.to_owned(), font, tokens.text_weak);
+    let size = vec2(SIDE + 6.0 + galley.size().x, 18.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let enabled = ui.is_enabled();
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, meaning));
+    let square =
+        egui::Rect::from_center_size(pos2(rect.left() + 0.5 * SIDE, rect.center().y), vec2(SIDE, SIDE));
+    ui.painter().rect_filled(square, 3, colour);
+    let at = pos2(rect.left() + SIDE + 6.0, rect.center().y - 0.5 * galley.size().y);
+    ui.painter().galley(at, galley, tokens.text_weak);
+    response
+}
+
+/// A bar of the colours from 0 to 1 between the texts for both ends.
+pub fn colour_bar(ui: &mut Ui, low: &str, high: &str, colour: impl Fn(f64) -> Color32) {
+    const WIDTH: f32 = 110.0;
+    const PARTS: u32 = 24;
+    let tokens = theme::tokens(ui);
+    ui.spacing_mut().item_spacing.x = 6.0;
+    let text = |text: &str| egui::RichText::new(text).small().color(tokens.text_weak);
+    ui.label(text(low));
+    let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, 18.0), Sense::hover());
+    let bar = rect.shrink2(vec2(0.0, 4.0));
+    let mut mesh = Mesh::default();
+    for part in 0..=PARTS {
+        let share = f64::from(part) / f64::from(PARTS);
+        let x = bar.left() + bar.width() * share as f32;
+        mesh.colored_vertex(pos2(x, bar.top()), colour(share));
+        mesh.colored_vertex(pos2(x, bar.bottom()), colour(share));
+        if part > 0 {
+            let last = 2 * part;
+            mesh.add_triangle(last - 2, last - 1, last);
+            mesh.add_triangle(last - 1, last, last + 1);
+        }
+    }
+    ui.painter().add(Shape::mesh(mesh));
+    ui.label(text(high));
+}

@@ -1,0 +1,171 @@
+//! What motion a start leads to: the classes, and what is known of the motion reached. [`super::Search`] computes it.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::lyapunov::Exponent;
+use super::orbit::{Measures, Orbit};
+use super::poincare::Recurrence;
+use super::{IntegrationError, Search};
+use crate::model::ReducedSystem;
+
+/// The class of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+pub enum Motion {
+    /// It repeats: there is a stable periodic motion that the run has arrived at, or approaches.
+    Periodic {
+        /// Its shortest period, in excitation periods.
+        periods: usize,
+    },
+    /// It moves on a torus: further frequencies without a common period, no divergence of neighbours.
+    Quasiperiodic,
+    /// Neighbours diverge exponentially, yet it stays bounded.
+    Chaotic,
+    /// The tip left: over the potential barrier of a truncated force law, or beyond ten beam lengths.
+    Escape {
+        /// Time of escape (dimensionless).
+        time: f64,
+    },
+    /// The magnets touched.
+    Contact {
+        /// Time of contact (dimensionless).
+        time: f64,
+    },
+    /// The evidence does not decide.
+    Undecided {
+        /// Why not.
+        why: Undecided,
+    },
+}
+
+/// Why a motion has no class.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Undecided {
+    /// Neighbours converge, so a periodic motion is approached, but the run has not come near it.
+    TransientNotGone,
+    /// The run is still near an unstable periodic motion and has not left it.
+    NearUnstable,
+    /// The Lyapunov exponent's error is too large for its sign.
+    ExponentOpen,
+    /// The exponent is zero but the stroboscopic points do not lie on closed curves, or not yet.
+    PointsScattered,
+    /// The motion is too fast for its derivative to be computed.
+    Unresolved,
+    /// Pieces of evidence contradict one another.
+    EvidenceDisagrees,
+}
+
+impl fmt::Display for Motion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Periodic { periods } => write!(f, "period {periods}"),
+            Self::Quasiperiodic => f.write_str("quasiperiodic"),
+            Self::Chaotic => f.write_str("chaotic"),
+            Self::Escape { time } => write!(f, "escape at t = {time:.4}"),
+            Self::Contact { time } => write!(f, "contact at t = {time:.4}"),
+            Self::Undecided { why } => write!(f, "undecided: {why}"),
+        }
+    }
+}
+
+impl fmt::Display for Undecided {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::TransientNotGone => "the transient has not gone",
+            Self::NearUnstable => "the run is still near an unstable periodic motion",
+            Self::ExponentOpen => "the Lyapunov exponent has not converged",
+            Self::PointsScattered => {
+                "the exponent is zero, but the stroboscopic points lie on no closed curves"
+            }
+            Self::Unresolved => "the motion is too fast to differentiate",
+            Self::EvidenceDisagrees => "the evidence disagrees",
+        })
+    }
+}
+
+/// How far a start is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Horizon {
+    /// Duration of the run (dimensionless), at least 64 excitation periods. Motions whose class is not known then are
+    /// followed further for their Lyapunov exponent.
+    pub t_end: f64,
+    /// Whether the run may end as soon as it is in the reach of a stable periodic motion.
+    pub ends_early: bool,
+    /// Record for the exponent, in excitation periods; at least half of `t_end` is taken.
+    pub exponent_periods: usize,
+    /// How often that record is doubled while it does not decide.
+    pub doublings: u32,
+}
+
+impl Horizon {
+    /// For charts of many cells: the run ends early, the exponent's record is doubled twice at most.
+    pub const fn chart(t_end: f64) -> Self {
+        Self { t_end, ends_early: true, exponent_periods: 768, doublings: 2 }
+    }
+
+    /// For one motion: the whole run, and records of up to 16 times the first.
+    pub const fn full(t_end: f64) -> Self {
+        Self { t_end, ends_early: false, exponent_periods: 1024, doublings: 4 }
+    }
+}
+
+/// What a start leads to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reached {
+    /// The class.
+    pub motion: Motion,
+    /// Means and extremes: of the periodic motion itself, else over the whole periods of the exponent's record. `None`
+    /// when the motion ended.
+    pub measures: Option<Measures>,
+    /// Last stroboscopic state, length 2N + 1.
+    pub state: Vec<f64>,
+    /// Time of that state since the start (dimensionless).
+    pub time: f64,
+    /// The periodic motion reached, with its multipliers.
+    pub orbit: Option<Orbit>,
+    /// Distance of the last stroboscopic states from it, relative to the motion's amplitude: what is left of the
+    /// transient.
+    pub distance: Option<f64>,
+    /// The exponents, when they were needed.
+    pub exponent: Option<Exponent>,
+    /// Whether the stroboscopic points at the end of the run recur; `None` when the motion ended or is rest. While a
+    /// motion settles they may seem to repeat after a multiple of its period.
+    pub recurrence: Option<Recurrence>,
+    /// Dimension of the set of the last stroboscopic points, when it was needed: 1 on closed curves.
+    pub dimension: Option<f64>,
+}
+
+/// The part of [`Reached`] that a chart stores.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Cell {
+    /// The class.
+    pub motion: Motion,
+    /// Root mean square of the voltage (V); 0 when the motion ended.
+    pub v_rms: f64,
+    /// Mean electrical power kappa v^2 in the load (dimensionless); 0 when the motion ended.
+    pub power: f64,
+}
+
+impl Reached {
+    /// What a chart stores.
+    pub fn cell(&self) -> Cell {
+        let (v_rms, power) = self.measures.map_or((0.0, 0.0), |measures| (measures.v_rms, measures.power));
+        Cell { motion: self.motion, v_rms, power }
+    }
+}
+
+/// What motion the start of `system` in `initial` (length 2N + 1) at t = 0 leads to.
+///
+/// # Errors
+/// As [`super::Collocation::new`] and [`super::Collocation::advance`].
+pub fn reach(system: &ReducedSystem, initial: &[f64], horizon: Horizon) -> Result<Reached, IntegrationError> {
+    let mut search = Search::new(system, initial, horizon)?;
+    loop {
+        if let Some(reached) = search.advance(usize::MAX)? {
+            return Ok(reached);
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Verdicts on the paper's figures: the class, what it rests on, and what must be said beside it.
+
+#![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
+
+use harvester_lab::dynamics::evidence::Source;
+use harvester_lab::dynamics::verdict::{OtherStart, Warning, force_law_warning};
+use harvester_lab::dynamics::{
+    ForcedMotion, Inquiry, Instability, Motion, Orbit, Verdict, largest_multipliers,
+};
+use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
+
+type TestResult = Result<(), Box<dyn std::error::Error>>;
+type Answer<T> = Result<T, Box<dyn std::error::Error>>;
+
+/// The paper's omega_1, omega_2 in 40-digit arithmetic.
+const OMEGA_1: f64 = 4.04845139686289;
+const OMEGA_2: f64 = 21.3562434253049;
+const PERIOD_1: Motion = Motion::Periodic { periods: 1 };
+
+fn system(alpha: f64, beta: f64, omega: f64, law: ForceLaw) -> Answer<ReducedSystem> {
+    let set = ParameterSet { alpha, beta, omega, ..Default::default() };
+    Ok(ReducedSystem::new(Parameters::new(set)?, 2, law)?)
+}
+
+fn strong(omega: f64) -> Answer<ReducedSystem> {
+    system(1e-4, 1e-2, omega, ForceLaw::Quadratic)
+}
+
+fn sources(verdict: &Verdict) -> Vec<Source> {
+    assert!(verdict.rests_on.iter().all(|piece| piece.agrees != Some(false)), "{:?}", verdict.rests_on);
+    assert!(verdict.disagreeing.is_empty() && verdict.motion == verdict.suspected);
+    verdict.rests_on.iter().filter(|piece| piece.agrees == Some(true)).map(|piece| piece.source).collect()
+}
+
+#[test]
+fn figure_3_is_the_stable_forced_motion() -> TestResult {
+    let verdict = Verdict::of(&system(1e-3, 1e-3, 25.0, ForceLaw::Quadratic)?, &[0.0; 5], 600.0)?;
+    assert_eq!(verdict.motion, PERIOD_1);
+    assert_eq!(
+        sources(&verdict),
+        [Source::Multipliers, Source::Recurrence, Source::Exponent, Source::Spectrum]
+    );
+    let forced = verdict.forced.ok_or("forced")?;
+    assert!(forced.stable && (forced.multiplier.modulus - 0.996743).abs() < 1e-6, "{forced:?}");
+    assert!(verdict.multiplier.is_some_and(|multiplier| (multiplier.modulus - 0.996743).abs() < 1e-6));
+    // It is that motion, so nothing coexists; and the tip moves too little for a warning.
+    assert_eq!((verdict.coexists.len(), verdict.warnings.len()), (0, 0), "{:?}", verdict.warnings);
+    Ok(())
+}
+
+#[test]
+fn figure_4_is_a_torus_and_says_what_coexists() -> TestResult {
+    let system = strong(OMEGA_1 + OMEGA_2)?;
+    let verdict = Verdict::of(&system, &[0.0; 5], 605.0)?;
+    assert_eq!(verdict.motion, Motion::Quasiperiodic);
+    assert_eq!(sources(&verdict), [Source::Recurrence, Source::Points, Source::Exponent, Source::Spectrum]);
+    let forced = verdict.forced.ok_or("forced")?;
+    assert!(forced.stable && (forced.multiplier.modulus - 0.999378).abs() < 1e-6, "{forced:?}");
+    assert_eq!((forced.instability, forced.unstable_from), (None, None));
+    let [beside] = verdict.coexists[..] else { return Err("one motion coexists".into()) };
+    assert_eq!((beside.start, beside.motion), (OtherStart::ForcedMotion, PERIOD_1));
+    assert_eq!(verdict.multiplier, None);
+    assert!(verdict.basic.is_some());
+    // Started on the forced motion, it is the torus from rest that coexists.
+    let orbit = Orbit::find(&system, None, 1)?;
+    assert!((beside.v_rms / orbit.measures.v_rms - 1.0).abs() < 1e-9);
+    let verdict = Verdict::of(&system, &orbit.state, 605.0)?;
+    assert_eq!(verdict.motion, PERIOD_1);
+    let [beside] = verdict.coexists[..] else { return Err("one motion coexists".into()) };
+    assert_eq!((beside.start, beside.motion), (OtherStart::Rest, Motion::Quasiperiodic));
+    Ok(())
+}
+
+#[test]
+fn figure_9_has_period_2_where_the_forced_motion_has_doubled() -> TestResult {
+    let verdict = Verdict::of(&strong(2.0 * OMEGA_1)?, &[0.0; 5], 600.0)?;
+    assert_eq!(verdict.motion, Motion::Periodic { periods: 2 });
+    assert_eq!(
+        sources(&verdict),
+        [Source::Multipliers, Source::Recurrence, Source::Exponent, Source::Spectrum]
+    );
+    let forced = verdict.forced.ok_or("forced")?;
+    assert!((forced.multiplier.re + 1.148382).abs() < 1e-6, "{forced:?}");
+    assert_eq!((forced.stable, forced.instability), (false, Some(Instability::PeriodDoubling)));
+    // An independent program's boundary.
+    assert!(forced.unstable_from.is_some_and(|beta| (beta - 0.001628).abs() < 1e-6), "{forced:?}");
+    let (low, high) = verdict.tip_over_gap.ok_or("tip")?;
+    assert!((low + 0.4930).abs() < 1e-4 && (high - 0.3896).abs() < 1e-4, "{low} {high}");
+    assert!(verdict.v_rms.is_some_and(|v_rms| (v_rms - 14.1783).abs() < 1e-4));
+    assert_eq!(verdict.peaks[0].label.map(|label| label.to_string()).as_deref(), Some("ω/2"));
+    assert!(verdict.coexists.is_empty());
+    // With a multiplier of 0.988 the transient outlives t = 600; and the paper's quadratic law is strained.
+    assert!(verdict.warnings.iter().any(|warning| matches!(warning, Warning::TransientLeft { .. })));
+    assert!(
+        verdict.warnings.iter().any(
+            |warning| matches!(warning, Warning::ForceLaw { missing } if (0.75..0.85).contains(missing))
+        )
+    );
+    Ok(())
+}
+
+#[test]
+fn figure_12_escapes_beside_a_stable_forced_motion() -> TestResult {
+    let verdict = Verdict::of(&strong(2.0 * OMEGA_2)?, &[0.0; 5], 600.0)?;
+    assert!(matches!(verdict.motion, Motion::Escape { time } if (time - 1.14).abs() < 0.01));
+    assert_eq!(sources(&verdict), [Source::Run]);
+    assert_eq!((verdict.v_rms, verdict.exponent, verdict.tip_over_gap), (None, None, None));
+    assert!(verdict.forced.is_some_and(|forced| (forced.multiplier.modulus - 0.998852).abs() < 1e-6));
+    assert_eq!(verdict.coexists.len(), 1);
+    assert_eq!(verdict.warnings, [Warning::TruncatedBarrier]);
+    let exact = Verdict::of(&system(1e-4, 1e-2, 2.0 * OMEGA_2, ForceLaw::Exact)?, &[0.0; 5], 600.0)?;
+    assert!(matches!(exact.motion, Motion::Periodic { .. }), "{}", exact.motion);
+    assert!(exact.tip_over_gap.is_some_and(|(low, _)| low > -1.0));
+    Ok(())
+}
+
+#[test]
+fn chaos_rests_on_its_exponent_and_its_spectrum() -> TestResult {
+    let verdict = Verdict::of(&system(1e-4, 0.008, 20.0, ForceLaw::Exact)?, &[0.0; 5], 600.0)?;
+    assert_eq!(verdict.motion, Motion::Chaotic);
+    assert_eq!(sources(&verdict), [Source::Recurrence, Source::Exponent, Source::Spectrum]);
+    assert!(verdict.warnings.iter().any(|warning| matches!(warning, Warning::LargeDeflection { .. })));
+    Ok(())
+}
+
+#[test]
+fn slices_come_to_the_same_verdict() -> TestResult {
+    let system = strong(2.0 * OMEGA_1)?;
+    let whole = Verdict::of(&system, &[0.0; 5], 300.0)?;
+    let mut inquiry = Inquiry::new(&system, &[0.0; 5], 300.0)?;
+    let mut stages = vec![inquiry.doing()];
+    let sliced = loop {
+        let found = inquiry.advance(512)?;
+        if stages.last() != Some(&inquiry.doing()) {
+            stages.push(inquiry.doing());
+        }
+        if let Some(verdict) = found {
+            break verdict;
+        }
+    };
+    assert_eq!(
+        (sliced.motion, &sliced.coexists, &sliced.peaks),
+        (whole.motion, &whole.coexists, &whole.peaks)
+    );
+    assert_eq!(stages.len(), 5, "{stages:?}");
+    assert_eq!(inquiry.advance(512)?, None);
+    // It can be sent to a page.
+    let text = serde_json::to_string(&whole)?;
+    assert!(text.contains(r#""motion":{"kind":"periodic","periods":2}"#), "{text}");
+    Ok(())
+}
+
+#[test]
+fn the_forced_motion_has_the_multipliers_of_the_stability_chart() -> TestResult {
+    for omega in [2.0 * OMEGA_1, OMEGA_1 + OMEGA_2, 2.0 * OMEGA_2] {
+        let system = strong(omega)?;
+        let forced = ForcedMotion::of(&system)?.orbit.ok_or("an orbit")?;
+        let chart = largest_multipliers(&system, omega, &[1e-2])?;
+        let [Some(expected)] = chart[..] else { return Err("one multiplier".into()) };
+        assert!((forced.largest_multiplier() - expected).norm() < 1e-8);
+    }
+    Ok(())
+}
+
+#[test]
+fn the_force_law_is_judged_where_the_tip_is_closest() -> TestResult {
+    let quadratic = strong(25.0)?;
+    let gap = quadratic.equilibrium.gap;
+    assert_eq!(force_law_warning(&quadratic, -0.01 * gap), None);
+    assert_eq!(force_law_warning(&quadratic, -1.01 * gap), Some(Warning::PassesMagnet));
+    // R by the remainders of the poles, in the form that cancels nothing.
+    let p = &quadratic.parameters;
+    let s = -0.5 * gap;
+    let r = |x: f64| s * s * (3.0 * x + 2.0 * s) / (x.powi(3) * (x + s).powi(2));
+    let exact = -p.c0 * (r(gap) + r(gap + 2.0 * p.h) - 2.0 * r(gap + p.h));
+    let expected = 1.0 - -19.378543266711 * s * s / exact;
+    let Some(Warning::ForceLaw { missing }) = force_law_warning(&quadratic, s) else {
+        panic!("half the gap")
+    };
+    assert!((missing - expected).abs() < 1e-6, "{missing} {expected}");
+    assert_eq!(force_law_warning(&system(1e-4, 1e-2, 25.0, ForceLaw::Exact)?, s), None);
+    Ok(())
+}
