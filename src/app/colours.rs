@@ -20,6 +20,15 @@ pub(super) fn instability(kind: Instability, tokens: &Tokens) -> Color32 {
     }
 }
 
+/// The name of an instability's kind.
+pub(super) const fn name(kind: Instability) -> &'static str {
+    match kind {
+        Instability::Fold => "fold",
+        Instability::PeriodDoubling => "period doubling",
+        Instability::NeimarkSacker => "Neimark–Sacker",
+    }
+}
+
 /// The kind that a multiplier of this absolute argument belongs to.
 pub(super) fn kind_of(argument: f64) -> Instability {
     if argument < REAL {

@@ -7,7 +7,7 @@ mod inline;
 mod studies;
 
 pub use inline::Inline;
-pub(super) use studies::Studies;
+pub(super) use studies::{Response, Studies};
 
 use super::clock::milliseconds;
 use crate::jobs::foreman::Foreman;

@@ -3,6 +3,8 @@
 pub(super) mod beam;
 pub(super) mod chart;
 pub(super) mod controls;
+pub(super) mod curves;
+pub(super) mod evidence;
 pub(super) mod explore;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
@@ -13,6 +15,7 @@ mod phase_plane;
 pub(super) mod phase_portrait;
 pub(super) mod poincare_map;
 pub(super) mod response;
+pub(super) mod spectrum;
 pub(super) mod stability;
 pub(super) mod stability_map;
 pub(super) mod structure;

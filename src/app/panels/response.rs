@@ -4,6 +4,7 @@ use egui::Ui;
 use egui_plot::{PlotPoint, VLine};
 
 use super::{Context, orbit_diagram, sweep};
+use crate::app::crew::Response;
 use crate::app::theme;
 use crate::app::view::{Output, Panel};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -12,12 +13,13 @@ use crate::dynamics::Instability;
 use crate::dynamics::sweep::SweepPoint;
 use crate::jobs::response::{ResponseCurve, ResponsePoint};
 use crate::jobs::study::sweep::{Direction, SweepStudy};
+use crate::jobs::work::Work;
 use crate::model::{Device, ParameterSet, ReducedSystem};
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.response() {
-        Some((_, true)) => "solid: stable, dashed: unstable",
+        Some(Response { newest: true, .. }) => "solid: stable, dashed: unstable",
         _ => "following the branches",
     };
     context.plot_card(ui, Panel::Response, "Response curves", hint, curves);
@@ -75,22 +77,21 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
             (Series::Unstable, "unstable"),
         ],
     );
-    let found = context.studies.response();
-    if let Some((response, true)) = found
-        && let Some(Err(message)) = response.found()
-    {
-        ui.label(egui::RichText::new(message).small().color(theme::tokens(ui).warning));
-    }
-    let matching = found.filter(|(response, _)| response.question().parameter == study.question().parameter);
-    let branches = match matching.and_then(|(response, _)| response.found()) {
-        Some(Ok(curves)) => curves.as_slice(),
-        _ => &[],
+    let swept = study.question().parameter;
+    let matching = |work: &Work| matches!(work, Work::Response { parameter, .. } if *parameter == swept);
+    let found = context.studies.response().filter(|response| matching(response.question));
+    let (branches, current): (&[ResponseCurve], bool) = match found {
+        Some(Response { curves: Ok(curves), newest, .. }) => (curves, newest),
+        Some(Response { curves: Err(message), newest: true, .. }) => {
+            ui.label(egui::RichText::new(message).small().color(theme::tokens(ui).warning));
+            (&[], true)
+        }
+        _ => (&[], false),
     };
     let lines: Vec<(Series, String, Vec<PlotPoint>)> =
         branches.iter().flat_map(|curve| lines(curve, &measure)).collect();
     let marks: Vec<(String, [f64; 2])> = branches.iter().flat_map(|curve| marks(curve, &measure)).collect();
     let ways = [Direction::Up, Direction::Down].map(|direction| reached(study, direction, &measure));
-    let current = matching.is_some_and(|(_, current)| current);
     let (name, symbol) = sweep::title(study.question().parameter);
     let (x, y) = (Axis::new(name, symbol), measure.axis());
     let range = study.question().range;

@@ -21,6 +21,10 @@ pub enum Series {
     Exact,
     /// Poincaré points.
     Poincare,
+    /// Boundary of a torus: dashes.
+    Torus,
+    /// Curve of folds: fine dots.
+    Fold,
     /// Reached by a sweep upwards: small discs.
     Up,
     /// Reached by a sweep downwards: small rings.
@@ -58,6 +62,8 @@ impl Series {
             Self::Coupled => tokens.coupled,
             Self::Exact => tokens.exact,
             Self::Poincare => tokens.poincare,
+            Self::Torus => tokens.poincare,
+            Self::Fold => tokens.warning,
             Self::Up => tokens.numeric,
             Self::Down => tokens.warning,
             Self::Stable | Self::Unstable => tokens.ok,
@@ -74,6 +80,8 @@ impl Series {
             Self::Coupled => Pen::Dashes(1.8, 9.0),
             Self::Exact => Pen::Line(3.0),
             Self::Poincare => Pen::Points(3.5),
+            Self::Torus => Pen::Line(2.2),
+            Self::Fold => Pen::Dashes(2.0, 12.0),
             Self::Up => Pen::Points(2.6),
             Self::Down => Pen::Rings(3.2),
             Self::Stable => Pen::Line(2.4),

@@ -111,7 +111,7 @@ impl Tracer<'_> {
                 found.push((SpecialKind::Cusp, station));
             }
         }
-        let ahead = |station: &Station| (&station.place - &here.place).dot(&here.course.tangent);
+        let ahead = |station: &Station| (&station.place - &here.place).dot(&here.direction.tangent);
         found.sort_by(|a, b| ahead(&a.1).total_cmp(&ahead(&b.1)));
         found
     }

@@ -3,9 +3,10 @@
 use super::work::{Finding, Work};
 
 pub mod answers;
+pub mod curves;
 pub mod mosaic;
 pub mod multiplier_chart;
-pub mod response;
+pub mod single;
 pub mod sweep;
 pub mod tongues;
 

@@ -85,6 +85,16 @@ pub fn labelled_place(plot: &mut PlotUi<'_>, text: &str, place: [f64; 2], kind: 
     plot.text(Text::new("", place.into(), rich).color(colour).allow_hover(false));
 }
 
+/// A place of its own, with its name beside it.
+pub fn special_point(plot: &mut PlotUi<'_>, name: &str, place: PlotPoint) {
+    let tokens = theme::tokens_in(plot.ctx());
+    let mark = Points::new(name, vec![[place.x, place.y]]).radius(5.0).color(tokens.text_strong);
+    plot.points(mark.shape(egui_plot::MarkerShape::Diamond));
+    let rich = egui::RichText::new(format!("  {name}")).font(fonts::regular(theme::size::SMALL + 0.5));
+    let text = Text::new("", place, rich.color(tokens.text_strong)).color(tokens.text_strong);
+    plot.text(text.anchor(egui::Align2::LEFT_BOTTOM).allow_hover(false));
+}
+
 /// The stretches of a curve without points that are not finite.
 pub fn finite_runs(curve: &[PlotPoint]) -> Vec<&[PlotPoint]> {
     let finite = |point: &PlotPoint| point.x.is_finite() && point.y.is_finite();
