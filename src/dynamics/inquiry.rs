@@ -67,7 +67,7 @@ impl Inquiry {
     /// Prepares the verdict on the start of `system` in `initial` (length 2N + 1) with a run of length `t_end`.
     ///
     /// # Errors
-    /// [`IntegrationError::InitialState`], [`IntegrationError::TooStiff`].
+    /// [`IntegrationError::InitialState`].
     pub fn new(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Self, IntegrationError> {
         let search = Search::new(system, initial, Horizon::full(t_end))?;
         Ok(Self {

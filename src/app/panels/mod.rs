@@ -11,6 +11,7 @@ pub(super) mod figure_panels;
 pub(super) mod multipliers;
 pub(super) mod orbit_diagram;
 pub(super) mod paper;
+mod phase_plane;
 pub(super) mod phase_portrait;
 pub(super) mod poincare_map;
 pub(super) mod response;
