@@ -2,6 +2,7 @@
 //! behind the page's plots.
 
 pub mod foreman;
+pub mod motions;
 pub mod request;
 pub mod response;
 pub mod run;

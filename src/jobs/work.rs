@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::motions::MotionPlane;
 use super::response::{ResponseCurve, response};
+use crate::dynamics::signature::Signature;
 use crate::dynamics::sweep::{Dwell, SweepPoint};
 use crate::dynamics::tongue::{Tongue, Window};
 use crate::dynamics::{largest_multipliers, trace_tongue};
@@ -50,6 +52,13 @@ pub enum Work {
         /// How long each value is held.
         dwell: Dwell,
     },
+    /// Cells of a chart of the motion reached.
+    Motions {
+        /// The plane they lie in.
+        plane: MotionPlane,
+        /// Their two coordinates.
+        places: Vec<[f64; 2]>,
+    },
     /// Response curves of periodic motions.
     Response {
         /// The device and its other numbers.
@@ -78,6 +87,8 @@ pub enum Finding {
         /// State to go on from (length 2N + 1); absent when the motion ended early.
         state: Option<Vec<f64>>,
     },
+    /// The motion at each place; none without a device, or where it cannot be integrated.
+    Motions(Vec<Option<Signature>>),
     /// The branches found.
     Response(Vec<ResponseCurve>),
 }
@@ -120,6 +131,7 @@ impl Work {
                         .map_err(sentence)?;
                 Ok(Finding::Sweep { points, state })
             }
+            Self::Motions { plane, places } => plane.motions(places).map(Finding::Motions).map_err(sentence),
             Self::Response { scenario, parameter, range } => {
                 response(scenario, *parameter, *range).map(Finding::Response).map_err(sentence)
             }

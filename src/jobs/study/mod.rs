@@ -3,7 +3,9 @@
 use super::work::{Finding, Work};
 
 pub mod answers;
+pub mod basin;
 pub mod mosaic;
+pub mod motion_chart;
 pub mod multiplier_chart;
 pub mod response;
 pub mod sweep;
