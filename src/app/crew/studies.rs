@@ -96,7 +96,15 @@ impl Studies {
     /// Names and done parts, 0 to 1, of what is under way.
     pub(in crate::app) fn progress(&mut self) -> Vec<(&'static str, f64)> {
         const NAMES: [&str; 9] = [
-            "answers", "verdict", "tongues", "response", "sweep", "curves", "multipliers", "motions", "basin",
+            "answers",
+            "verdict",
+            "tongues",
+            "response",
+            "sweep",
+            "curves",
+            "multipliers",
+            "motions",
+            "basin",
         ];
         NAMES.iter().zip(self.lanes()).filter_map(|(name, lane)| Some((*name, lane.progress()?))).collect()
     }

@@ -59,7 +59,8 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         Layer::Motion => motion_legend(ui, tokens),
         layer @ (Layer::Voltage | Layer::Power) => {
             let top = context.studies.motions.study().map_or(0.0, |chart| highest(chart, layer));
-            let (top, unit) = if layer == Layer::Voltage { (top, "V rms") } else { (microwatts() * top, "µW") };
+            let (top, unit) =
+                if layer == Layer::Voltage { (top, "V rms") } else { (microwatts() * top, "µW") };
             ui.horizontal(|ui| {
                 colour_bar(ui, "0", &format!("{} {unit}", significant(top, 3)), colours::sequential);
             });
@@ -114,8 +115,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<(TextureHandl
         let chart = context.studies.multipliers.study()?;
         let question = chart.question();
         let revision = revision(chart.version(), context.studies.multipliers.generation());
-        let paint =
-            |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
+        let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
         let picture = raster(ui, Id::unique("multiplier chart"), revision, question.size, paint)?;
         return Some((picture, [question.omega, question.beta], chart.version() > 0));
     }

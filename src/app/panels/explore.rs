@@ -3,8 +3,8 @@
 use egui::{Ui, vec2};
 
 use super::{
-    Context, basins, chart, curves, evidence, multipliers, orbit_diagram, phase_portrait, poincare_map, response,
-    spectrum, stability_map, time_history, verdict,
+    Context, basins, chart, curves, evidence, multipliers, orbit_diagram, phase_portrait, poincare_map,
+    response, spectrum, stability_map, time_history, verdict,
 };
 use crate::app::view::Panel;
 
