@@ -1,6 +1,7 @@
 //! Questions and answers: one request type for the native command, JavaScript and the page, and the sliced run
 //! behind the page's plots.
 
+pub mod design;
 pub mod foreman;
 pub mod inspection;
 pub mod motions;
