@@ -3,15 +3,21 @@
 use super::map::{self, Boundaries};
 use super::session::Session;
 use super::view::View;
+use crate::jobs::motions::Coordinate;
+use crate::jobs::study::basin::BasinQuestion;
 use crate::jobs::study::curves::CurvesQuestion;
+use crate::jobs::study::motion_chart::MotionQuestion;
 use crate::jobs::study::multiplier_chart::MultiplierQuestion;
 use crate::jobs::study::sweep::SweepQuestion;
 use crate::jobs::work::Work;
-use crate::model::Parameter;
+use crate::model::{ModelError, Parameter};
 use crate::scenario::Scenario;
 
 /// Columns and rows of the chart of multipliers.
 const CHART: (usize, usize) = (256, 256);
+/// The same of the chart of motions, and of the plane of starts.
+const MOTIONS: (usize, usize) = (80, 60);
+const BASIN: (usize, usize) = (64, 64);
 /// A structural parameter is swept from its value over this to its value times this.
 const SPAN: f64 = 4.0;
 /// A sweep that would be empty is widened to this fraction of the parameter's whole range.
@@ -26,6 +32,30 @@ pub(super) fn chart(view: &View, boundaries: &Boundaries) -> MultiplierQuestion 
     scenario.parameters.beta = 0.0;
     scenario.initial = None;
     MultiplierQuestion { scenario, omega, beta, size: CHART }
+}
+
+/// The motions reached from the scenario's start over the same window.
+pub(super) fn motions(view: &View, boundaries: &Boundaries) -> MotionQuestion {
+    let MultiplierQuestion { omega, beta, .. } = chart(view, boundaries);
+    let t_end = view.scenario.t_end;
+    let mut scenario = with(&view.scenario, Parameter::Omega, omega.0);
+    scenario.parameters.beta = 0.0;
+    MotionQuestion {
+        scenario,
+        x: (Coordinate::Parameter(Parameter::Omega), omega),
+        y: (Coordinate::Parameter(Parameter::Beta), beta),
+        size: MOTIONS,
+        t_end,
+    }
+}
+
+/// The basins of the scenario in view, whatever its start.
+///
+/// # Errors
+/// [`ModelError`] naming what of the scenario is out of range.
+pub(super) fn basin(view: &View) -> Result<BasinQuestion, ModelError> {
+    let scenario = Scenario { initial: None, t_end: Scenario::default().t_end, ..view.scenario.clone() };
+    BasinQuestion::first_mode(scenario, BASIN, view.scenario.t_end)
 }
 
 /// The sweep that the tab shows.

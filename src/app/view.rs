@@ -100,6 +100,8 @@ pub enum Panel {
     Spectrum,
     /// What the verdict rests on.
     Evidence,
+    /// Basins of attraction.
+    Basins,
 }
 
 /// What is swept, and how.

@@ -21,8 +21,8 @@ const RENEWAL: usize = 4;
 const SETTLED: f64 = 1e-9;
 /// A defect below this is rounding, whatever correction a nearly singular matrix makes of it.
 const ROUNDING: f64 = 1e-14;
-/// Step of the difference quotient in a parameter, relative to the width of its range.
-const DIFFERENCE: f64 = 1e-7;
+/// Longest step of a difference quotient in a parameter, relative to the width of its range.
+pub(super) const DIFFERENCE: f64 = 1e-6;
 /// Smallest component of a unit vector along a parameter by which a difference quotient's step is scaled.
 const STEEP: f64 = 0.1;
 /// Prepared maps kept beside the present one.
@@ -54,6 +54,8 @@ pub(super) struct Family<const K: usize> {
     pub(super) system: ReducedSystem,
     pub(super) periods: usize,
     pub(super) solver: OrbitSolver<Law>,
+    /// Step of difference quotients in a parameter, relative to the width of its range.
+    pub(super) difference: f64,
     axes: [Axis; K],
     /// Units of the places' components.
     units: Vec<f64>,
@@ -70,7 +72,8 @@ impl<const K: usize> Family<K> {
         let gap = solver.map().gap();
         let state = solver.map().scales().iter().map(|scale| scale * gap);
         let units = state.chain(axes.iter().map(Axis::width)).collect();
-        Ok(Self { system: system.clone(), periods, solver, axes, units, spare: Vec::new(), columns: None })
+        let (difference, spare, columns) = (DIFFERENCE, Vec::new(), None);
+        Ok(Self { system: system.clone(), periods, solver, difference, axes, units, spare, columns })
     }
 
     /// Length 2N + 1 of the state.
@@ -175,13 +178,13 @@ impl<const K: usize> Family<K> {
             }
         }
         let steep = slope.abs() > STEEP;
-        let length = if steep { DIFFERENCE / slope } else { DIFFERENCE };
+        let length = if steep { self.difference / slope } else { self.difference };
         self.set(self.values(place))?;
         let steps = self.solver.map().steps_per_period();
         for step in [length, -length] {
             let mut moved = place + vector * step;
             if steep {
-                moved[steepest] = place[steepest] + DIFFERENCE.copysign(step * slope);
+                moved[steepest] = place[steepest] + self.difference.copysign(step * slope);
             }
             if !self.accepts(&moved) {
                 continue;

@@ -294,7 +294,7 @@ impl Inquiry {
             _ => false,
         };
         let decided = !matches!(there.motion, Motion::Undecided { .. });
-        let Cell { motion, v_rms, power } = there;
+        let Cell { motion, v_rms, power, .. } = there;
         (decided && !same).then_some(Coexisting { start: OtherStart::Rest, motion, v_rms, power })
     }
 

@@ -9,6 +9,7 @@
 //! * [`sweep`] carries a motion from one value of a parameter to the next.
 //! * [`motion`] says what motion a start leads to; [`lyapunov`] has its exponents, [`spectrum`] and
 //!   [`voltage_spectrum`] its lines, which [`spectral_label`] names, and [`verdict`] weighs all of it.
+//! * [`signature`] tells whether two starts lead to the same motion.
 //! * [`forced`] is the motion that grows out of rest with the excitation.
 //! * [`boundary`] and [`tongue`] find where the forced motion loses its stability, [`continuation`] follows periodic
 //!   motions in any parameter, [`curves`] their bifurcations in any two.
@@ -41,6 +42,7 @@ pub mod propagator;
 pub mod rk4;
 mod rule;
 mod search;
+pub mod signature;
 pub mod spectral_label;
 pub mod spectrum;
 mod strobe;

@@ -58,6 +58,16 @@ pub enum Undecided {
     EvidenceDisagrees,
 }
 
+impl Motion {
+    /// Whether both are of one class: periodic with the same period, or alike whatever the time or the reason is.
+    pub fn same_class(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Periodic { periods: a }, Self::Periodic { periods: b }) => a == b,
+            _ => std::mem::discriminant(self) == std::mem::discriminant(other),
+        }
+    }
+}
+
 impl fmt::Display for Motion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -147,13 +157,21 @@ pub struct Cell {
     pub v_rms: f64,
     /// Mean electrical power kappa v^2 in the load (dimensionless); 0 when the motion ended.
     pub power: f64,
+    /// Lowest and highest tip displacement, in beam lengths; 0 when the motion ended.
+    pub tip: (f64, f64),
 }
 
 impl Reached {
     /// What a chart stores.
     pub fn cell(&self) -> Cell {
-        let (v_rms, power) = self.measures.map_or((0.0, 0.0), |measures| (measures.v_rms, measures.power));
-        Cell { motion: self.motion, v_rms, power }
+        let motion = self.motion;
+        match self.measures {
+            Some(measures) => {
+                let tip = (measures.tip_min, measures.tip_max);
+                Cell { motion, v_rms: measures.v_rms, power: measures.power, tip }
+            }
+            None => Cell { motion, v_rms: 0.0, power: 0.0, tip: (0.0, 0.0) },
+        }
     }
 }
 

@@ -3,8 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::inspection::{Inspection, inspect};
+use super::motions::MotionPlane;
 use super::response::{ResponseCurve, response};
 use crate::dynamics::curves::{Curve, Line, Start, bifurcations_along_line, trace_curve};
+use crate::dynamics::signature::Signature;
 use crate::dynamics::sweep::{Dwell, SweepPoint};
 use crate::dynamics::tongue::{Tongue, Window};
 use crate::dynamics::{Plane, largest_multipliers, trace_tongue};
@@ -51,6 +53,13 @@ pub enum Work {
         state: Option<Vec<f64>>,
         /// How long each value is held.
         dwell: Dwell,
+    },
+    /// Cells of a chart of the motion reached.
+    Motions {
+        /// The plane they lie in.
+        plane: MotionPlane,
+        /// Their two coordinates.
+        places: Vec<[f64; 2]>,
     },
     /// Response curves of periodic motions.
     Response {
@@ -103,6 +112,8 @@ pub enum Finding {
         /// State to go on from (length 2N + 1); absent when the motion ended early.
         state: Option<Vec<f64>>,
     },
+    /// The motion at each place; none without a device, or where it cannot be integrated.
+    Motions(Vec<Option<Signature>>),
     /// The branches found.
     Response(Vec<ResponseCurve>),
     /// Verdict and evidence.
@@ -151,6 +162,7 @@ impl Work {
                         .map_err(sentence)?;
                 Ok(Finding::Sweep { points, state })
             }
+            Self::Motions { plane, places } => plane.motions(places).map(Finding::Motions).map_err(sentence),
             Self::Response { scenario, parameter, range } => {
                 response(scenario, *parameter, *range).map(Finding::Response).map_err(sentence)
             }

@@ -43,6 +43,12 @@ pub enum ModelError {
         /// Largest allowed count.
         maximum: usize,
     },
+    /// Both sides of a chart are the same coordinate.
+    #[error("both sides of the chart are {field}: they must differ")]
+    SameSides {
+        /// Name of the coordinate.
+        field: String,
+    },
     /// Attracting magnets pull the tip in: no equilibrium exists.
     #[error(
         "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {c0} and h = {h} the gap d must be larger than {d}"

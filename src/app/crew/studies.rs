@@ -9,7 +9,9 @@ use crate::jobs::foreman::{Lane, Traffic};
 use crate::jobs::inspection::Inspection;
 use crate::jobs::response::ResponseCurve;
 use crate::jobs::study::answers::Answers;
+use crate::jobs::study::basin::Basin;
 use crate::jobs::study::curves::CurvesStudy;
+use crate::jobs::study::motion_chart::MotionChart;
 use crate::jobs::study::multiplier_chart::MultiplierChart;
 use crate::jobs::study::single::Single;
 use crate::jobs::study::sweep::{Direction, SweepStudy};
@@ -38,6 +40,10 @@ pub(in crate::app) struct Studies {
     pub curves: Lane<CurvesStudy>,
     /// Chart of the forced motion's stability.
     pub multipliers: Lane<MultiplierChart>,
+    /// Chart of the motions reached.
+    pub motions: Lane<MotionChart>,
+    /// Basins of attraction.
+    pub basin: Lane<Basin>,
 }
 
 /// Response curves to draw.
@@ -62,6 +68,8 @@ impl Default for Studies {
             sweep: Lane::default(),
             curves: Lane::default(),
             multipliers: Lane::default(),
+            motions: Lane::default(),
+            basin: Lane::default(),
         }
     }
 }
@@ -71,7 +79,7 @@ impl Studies {
     pub(super) const URGENT: usize = 3;
 
     /// All lanes, most urgent first.
-    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; 7] {
+    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; 9] {
         [
             &mut self.answers,
             &mut self.inspection,
@@ -80,13 +88,24 @@ impl Studies {
             &mut self.sweep,
             &mut self.curves,
             &mut self.multipliers,
+            &mut self.motions,
+            &mut self.basin,
         ]
     }
 
     /// Names and done parts, 0 to 1, of what is under way.
     pub(in crate::app) fn progress(&mut self) -> Vec<(&'static str, f64)> {
-        const NAMES: [&str; 7] =
-            ["answers", "verdict", "tongues", "response", "sweep", "curves", "multipliers"];
+        const NAMES: [&str; 9] = [
+            "answers",
+            "verdict",
+            "tongues",
+            "response",
+            "sweep",
+            "curves",
+            "multipliers",
+            "motions",
+            "basin",
+        ];
         NAMES.iter().zip(self.lanes()).filter_map(|(name, lane)| Some((*name, lane.progress()?))).collect()
     }
 
@@ -104,6 +123,12 @@ impl Studies {
                     self.multipliers.ask(MultiplierChart::new(question));
                 }
             }
+            (Tab::Stability, Some(boundaries)) => {
+                let question = questions::motions(view, boundaries);
+                if self.motions.study().is_none_or(|chart| *chart.question() != question) {
+                    self.motions.ask(MotionChart::new(question));
+                }
+            }
             _ => {}
         }
         match view.tab {
@@ -113,6 +138,12 @@ impl Studies {
                     && self.curves.study().is_none_or(|curves| *curves.question() != question)
                 {
                     self.curves.ask(CurvesStudy::new(question));
+                }
+                if let Ok(question) = questions::basin(view)
+                    && self.basin.study().is_none_or(|basin| *basin.question() != question)
+                    && let Ok(basin) = Basin::new(question)
+                {
+                    self.basin.ask(basin);
                 }
             }
             Tab::Sweep => {

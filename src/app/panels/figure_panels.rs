@@ -105,10 +105,11 @@ fn strobe(ui: &mut Ui, figure: &Figure, shown: &Shown) {
     phase_plane::plot_around(ui, ("figure map", figure.number), curves.extent).allow_scroll(false).show(
         ui,
         |plot| {
-            plot_style::points(plot, Series::Poincare, "computed", &curves.strobe);
             if let Some(point) = &curves.theory_strobe {
-                plot_style::points(plot, Series::Theory, "first-order theory", std::slice::from_ref(point));
+                let place = std::slice::from_ref(point);
+                plot_style::points(plot, Series::TheoryPoint, "first-order theory", place);
             }
+            plot_style::points(plot, Series::Poincare, "computed", &curves.strobe);
         },
     );
 }

@@ -1,5 +1,6 @@
 //! The panels, one file each. They read the view and the session and push commands.
 
+pub(super) mod basins;
 pub(super) mod beam;
 pub(super) mod chart;
 pub(super) mod controls;

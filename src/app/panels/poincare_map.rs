@@ -18,16 +18,16 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 fn map(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(shown) = context.shown() else { return };
     let curves = &shown.curves;
-    legend::legend(ui, &[(Series::Poincare, "last quarter"), (Series::Theory, "first-order theory")]);
+    legend::legend(ui, &[(Series::Poincare, "last quarter"), (Series::TheoryPoint, "first-order theory")]);
     phase_plane::plot_around(ui, "poincare map", curves.extent).show(ui, |plot| {
         if let Some(pinned) = &context.session.pinned {
             plot_style::points(plot, Series::Ghost, "pinned", &pinned.curves.strobe);
         }
         plot_style::points(plot, Series::Ghost, "before", &curves.strobe_before);
-        plot_style::points(plot, Series::Poincare, "last quarter", &curves.strobe);
         if let Some(point) = &curves.theory_strobe {
             let place = std::slice::from_ref(point);
-            plot_style::points(plot, Series::Theory, "first-order theory", place);
+            plot_style::points(plot, Series::TheoryPoint, "first-order theory", place);
         }
+        plot_style::points(plot, Series::Poincare, "last quarter", &curves.strobe);
     });
 }

@@ -35,11 +35,7 @@ struct Measure {
 
 impl Measure {
     fn new(output: Output, system: &ReducedSystem) -> Self {
-        // V^2 / R over kappa v^2, the same for every load.
-        let kappa = ParameterSet::default().kappa;
-        let resistance = Device::default().resistance_of(kappa);
-        let microwatts = resistance.map_or(0.0, |resistance| 1e6 / (resistance * kappa));
-        Self { output, microwatts, gap: system.equilibrium.gap }
+        Self { output, microwatts: microwatts(), gap: system.equilibrium.gap }
     }
 
     fn axis(&self) -> Axis {
@@ -62,6 +58,13 @@ impl Measure {
     fn of(&self, point: &ResponsePoint) -> Vec<f64> {
         self.values(point.v_rms, point.power, point.tip)
     }
+}
+
+/// Microwatts of a dimensionless power of 1: V^2 / R over kappa v^2, the same for every load.
+pub(super) fn microwatts() -> f64 {
+    let kappa = ParameterSet::default().kappa;
+    let resistance = Device::default().resistance_of(kappa);
+    resistance.map_or(0.0, |resistance| 1e6 / (resistance * kappa))
 }
 
 fn curves(context: &mut Context<'_>, ui: &mut Ui) {
@@ -110,7 +113,7 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
             plot_style::points(plot, Series::Down, "downwards", &ways[1]);
             plot_style::points(plot, Series::Up, "upwards", &ways[0]);
             for (name, place) in &marks {
-                plot_style::labelled_place(plot, name, *place, Series::Stable);
+                plot_style::special_point(plot, name, (*place).into());
             }
         });
     orbit_diagram::go_where_clicked(context, &response, study);

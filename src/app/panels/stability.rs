@@ -12,6 +12,6 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     explore::cards(
         context,
         ui,
-        &[Panel::Chart, Panel::Multipliers, Panel::Curves, Panel::Spectrum, Panel::Evidence],
+        &[Panel::Chart, Panel::Multipliers, Panel::Curves, Panel::Basins, Panel::Spectrum, Panel::Evidence],
     );
 }

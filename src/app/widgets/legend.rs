@@ -25,6 +25,8 @@ pub enum Series {
     Torus,
     /// Curve of folds: fine dots.
     Fold,
+    /// A single point of the theory: a ring around what it predicts.
+    TheoryPoint,
     /// Multipliers of the forced motion: large discs.
     Forced,
     /// Reached by a sweep upwards: small discs.
@@ -59,7 +61,7 @@ impl Series {
     pub fn colour(self, tokens: &Tokens) -> Color32 {
         match self {
             Self::Numeric => tokens.numeric,
-            Self::Theory => tokens.theory,
+            Self::Theory | Self::TheoryPoint => tokens.theory,
             Self::Published => tokens.published,
             Self::Coupled => tokens.coupled,
             Self::Exact => tokens.exact,
@@ -85,6 +87,7 @@ impl Series {
             Self::Poincare => Pen::Points(3.5),
             Self::Torus => Pen::Line(2.2),
             Self::Fold => Pen::Dashes(2.0, 12.0),
+            Self::TheoryPoint => Pen::Rings(6.0),
             Self::Forced => Pen::Points(4.5),
             Self::Up => Pen::Points(2.6),
             Self::Down => Pen::Rings(3.2),

@@ -19,6 +19,7 @@ use super::curve::{Curve, CurveEnd, CurvePoint, SpecialPoint, Start};
 use super::locate::KNOWN;
 use super::station::Station;
 use super::surface::Surface;
+use crate::dynamics::arclength::DIFFERENCE;
 use crate::dynamics::plane::Plane;
 use crate::dynamics::{Instability, OrbitError};
 use crate::model::{ModelError, ReducedSystem};
@@ -42,8 +43,8 @@ const SAME: f64 = 1e-6;
 /// two parameters, is that of `system`.
 ///
 /// # Errors
-/// [`OrbitError`] when the start is outside the plane, there is no such bifurcation near it, or no device. Once begun, a curve that is lost
-/// is an answer, [`CurveEnd::Lost`].
+/// [`OrbitError`] when the start is outside the plane, there is no such bifurcation near it, or no device. Once begun,
+/// a curve that is lost is an answer, [`CurveEnd::Lost`].
 pub fn trace_curve(system: &ReducedSystem, start: &Start, plane: &Plane) -> Result<Curve, OrbitError> {
     for (axis, value) in plane.axes().iter().zip(start.at) {
         ModelError::check(axis.parameter.field(), value, axis.range, "")?;
@@ -186,6 +187,8 @@ impl Tracer<'_> {
         before: Option<&Station>,
         step: f64,
     ) -> Result<(Station, bool), OrbitError> {
+        // Short enough for the bend of the curve; no shorter than that needs, for the errors of the map.
+        self.surface.family.difference = (DIFFERENCE * step / STEPS.0).clamp(0.1 * DIFFERENCE, DIFFERENCE);
         let mut guess = here.predict(before, step);
         let mut border = self.first_border(here.at(), self.surface.family.values(&guess));
         let mut next = None;

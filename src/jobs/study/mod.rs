@@ -3,8 +3,10 @@
 use super::work::{Finding, Work};
 
 pub mod answers;
+pub mod basin;
 pub mod curves;
 pub mod mosaic;
+pub mod motion_chart;
 pub mod multiplier_chart;
 pub mod single;
 pub mod sweep;

@@ -26,6 +26,8 @@ pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [
     let (radius, opacity) = match (kind, places.len()) {
         (Series::Ghost, 0..=40) => (3.0, 0.6),
         (Series::Ghost, _) => (1.2, 0.5),
+        (Series::TheoryPoint, _) => (7.0, 1.0),
+        (Series::Down, _) => (2.6, 0.8),
         (_, 0..=40) => (5.0, 1.0),
         (_, 41..=400) => (2.6, 0.9),
         _ => (1.5, 0.75),

@@ -1,0 +1,185 @@
+//! The motions that many starts or devices lead to: cells of a chart in the plane of any two coordinates.
+
+use serde::{Deserialize, Serialize};
+
+use crate::dynamics::signature::Signature;
+use crate::dynamics::{ESCAPE_DISPLACEMENT, Horizon, IntegrationError, reach};
+use crate::jobs::response::check_range;
+use crate::model::{ModelError, Parameter, ReducedSystem, state_dimension};
+use crate::scenario::Scenario;
+
+/// Largest modal velocity that a start may have (dimensionless): that of the fastest mode with the largest displacement.
+const MOST_VELOCITY: f64 = 1e4;
+/// Largest voltage that a start may have (V), as in a scenario.
+const MOST_VOLTAGE: f64 = 1e6;
+
+/// What changes along a side of a chart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Coordinate {
+    /// One of the ten numbers.
+    Parameter(Parameter),
+    /// A component of the state at t = 0: q_1..q_N, dq_1/dt..dq_N/dt, v by index from 0.
+    Start(usize),
+}
+
+impl Coordinate {
+    /// Its name, for a model of `modes` modes.
+    pub fn name(self, modes: usize) -> String {
+        match self {
+            Self::Parameter(parameter) => parameter.field().to_owned(),
+            Self::Start(i) if i < modes => format!("q{}", i + 1),
+            Self::Start(i) if i < 2 * modes => format!("dq{}/dt", i + 1 - modes),
+            Self::Start(_) => "v".to_owned(),
+        }
+    }
+
+    /// The coordinate of that name, if a model of `modes` modes has it.
+    pub fn named(name: &str, modes: usize) -> Option<Self> {
+        let starts = (0..state_dimension(modes)).map(Self::Start);
+        let parameters = Parameter::ALL.into_iter().map(Self::Parameter);
+        starts.chain(parameters).find(|coordinate| coordinate.name(modes) == name)
+    }
+
+    /// Lowest and highest value on it: a parameter's own range, ten beam lengths for a displacement (where every motion
+    /// counts as escaped), and no less for velocities and voltage.
+    pub fn limits(self, modes: usize) -> (f64, f64) {
+        let most = match self {
+            Self::Parameter(parameter) => return parameter.range(),
+            Self::Start(i) if i < modes => ESCAPE_DISPLACEMENT,
+            Self::Start(i) if i < 2 * modes => MOST_VELOCITY,
+            Self::Start(_) => MOST_VOLTAGE,
+        };
+        (-most, most)
+    }
+
+    /// Checks that a model of `modes` modes has it, and that `range` lies within its limits.
+    ///
+    /// # Errors
+    /// [`ModelError`] naming what is out of range.
+    pub fn check(self, modes: usize, range: (f64, f64)) -> Result<(), ModelError> {
+        match self {
+            Self::Parameter(parameter) => check_range(parameter, range),
+            Self::Start(value) => {
+                let maximum = state_dimension(modes) - 1;
+                if value > maximum {
+                    return Err(ModelError::Count {
+                        field: "component of the start",
+                        value,
+                        minimum: 0,
+                        maximum,
+                    });
+                }
+                let (name, (minimum, maximum)) = (self.name(modes), self.limits(modes));
+                ModelError::check(&name, range.0, (minimum, maximum), "")?;
+                ModelError::check(&name, range.1, (range.0, maximum), "").map(|_| ())
+            }
+        }
+    }
+}
+
+/// The plane of two coordinates through the numbers and the start of a scenario.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MotionPlane {
+    /// Everything that the coordinates do not change.
+    pub scenario: Scenario,
+    /// What the first number of a place is.
+    pub x: Coordinate,
+    /// What the second one is.
+    pub y: Coordinate,
+    /// How long a start is followed before its class is asked for (dimensionless).
+    pub t_end: f64,
+}
+
+impl MotionPlane {
+    /// The motions reached at `places`; `None` where there is no device (the magnets leave no equilibrium, or buckle the
+    /// beam) or where its motion cannot be integrated.
+    ///
+    /// # Errors
+    /// [`MotionsError`] when the scenario or a place is out of range.
+    pub fn motions(&self, places: &[[f64; 2]]) -> Result<Vec<Option<Signature>>, MotionsError> {
+        let (system, start) = self.scenario.validate()?;
+        places.iter().map(|place| self.motion(&system, &start, *place)).collect()
+    }
+
+    fn motion(
+        &self,
+        system: &ReducedSystem,
+        start: &[f64],
+        place: [f64; 2],
+    ) -> Result<Option<Signature>, MotionsError> {
+        let mut set = self.scenario.parameters;
+        let mut initial = start.to_vec();
+        for (coordinate, value) in [self.x, self.y].into_iter().zip(place) {
+            match coordinate {
+                Coordinate::Parameter(parameter) => *parameter.get_mut(&mut set) = value,
+                Coordinate::Start(i) => {
+                    coordinate.check(self.scenario.model.modes, (value, value))?;
+                    initial[i] = value;
+                }
+            }
+        }
+        let system = match system.with_numbers(set) {
+            Err(ModelError::PullIn { .. } | ModelError::Buckled { .. }) => return Ok(None),
+            system => system?,
+        };
+        let found = reach(&system, &initial, Horizon::chart(self.t_end))
+            .and_then(|reached| Signature::of(&system, &reached));
+        match found {
+            Err(IntegrationError::StepTooSmall { .. } | IntegrationError::TooManySteps { .. }) => Ok(None),
+            found => Ok(Some(found?)),
+        }
+    }
+}
+
+/// Why cells of a chart cannot even be tried.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MotionsError {
+    /// A number is out of range.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A start does not suit the integrator.
+    #[error(transparent)]
+    Integration(#[from] IntegrationError),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::Motion;
+    use crate::model::ParameterSet;
+
+    #[test]
+    fn coordinates_have_names_and_limits() {
+        for modes in 1..=8 {
+            for i in 0..=2 * modes {
+                let coordinate = Coordinate::Start(i);
+                assert_eq!(Coordinate::named(&coordinate.name(modes), modes), Some(coordinate));
+                assert!(coordinate.check(modes, (-1.0, 1.0)).is_ok());
+            }
+            assert!(Coordinate::Start(2 * modes + 1).check(modes, (-1.0, 1.0)).is_err());
+        }
+        assert_eq!(Coordinate::named("omega", 2), Some(Coordinate::Parameter(Parameter::Omega)));
+        assert_eq!(Coordinate::named("q3", 2), None);
+        assert!(Coordinate::Start(0).check(2, (0.0, f64::INFINITY)).is_err());
+        let message = Coordinate::Start(2).check(2, (-1.0, 1e5)).map_err(|error| error.to_string());
+        assert_eq!(message, Err("dq1/dt = 100000 is out of range: allowed are -1 to 10000".to_owned()));
+    }
+
+    #[test]
+    fn a_place_without_a_device_is_none() {
+        // Attracting magnets: pull-in for a small gap, an equilibrium for a wide one.
+        let parameters = ParameterSet { c0: -0.5, d: 1.5, ..Default::default() };
+        let plane = MotionPlane {
+            scenario: Scenario { parameters, ..Default::default() },
+            x: Coordinate::Parameter(Parameter::D),
+            y: Coordinate::Start(0),
+            t_end: 200.0,
+        };
+        let found = plane.motions(&[[0.05, 0.0], [1.5, 0.0]]).expect("a valid plane");
+        assert_eq!(found[0], None);
+        let motion = found[1].as_ref().map(|signature| signature.cell.motion);
+        assert_eq!(motion, Some(Motion::Periodic { periods: 1 }));
+        assert!(plane.motions(&[[3.0, 0.0]]).is_err());
+    }
+}
