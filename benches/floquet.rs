@@ -1,12 +1,15 @@
 //! Periodic orbits, their multipliers and boundaries: one column of a stability chart, one critical excitation, the
-//! tongues of the paper, one doubled branch. Quadratic law and two modes unless named otherwise.
+//! tongues of the paper, one curve of each kind. Quadratic law and two modes unless named otherwise.
 
 #![allow(clippy::expect_used, reason = "a benchmark fails by panicking")]
 
 use divan::{Bencher, black_box, counter::ItemsCount};
+use harvester_lab::dynamics::curves::{Line, bifurcations_along_line, trace_curve};
 use harvester_lab::dynamics::tongue::Window;
-use harvester_lab::dynamics::{Orbit, critical_excitation, largest_multipliers, trace_tongue};
-use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
+use harvester_lab::dynamics::{
+    Axis, Instability, Orbit, Plane, critical_excitation, largest_multipliers, trace_tongue,
+};
+use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, Parameters, ReducedSystem};
 use harvester_lab::theory::Resonance;
 
 fn system(modes: usize, law: ForceLaw) -> ReducedSystem {
@@ -52,6 +55,24 @@ fn critical_excitation_of_the_sum(bencher: Bencher) {
 fn tongue(bencher: Bencher, resonance: Resonance) {
     let system = system(2, ForceLaw::Quadratic);
     bencher.bench(|| trace_tongue(black_box(&system), resonance, Window::default()).expect("a tongue"));
+}
+
+/// The period doublings about 2 omega_1, the tori about omega_1 + omega_2, the folds about omega_2, each with its window.
+const CURVES: [(Instability, f64); 3] =
+    [(Instability::PeriodDoubling, 8.1565), (Instability::NeimarkSacker, 25.5148), (Instability::Fold, 21.5)];
+
+#[divan::bench(args = CURVES, sample_count = 20)]
+fn curve_in_omega_and_beta(bencher: Bencher, (kind, omega): (Instability, f64)) {
+    let system = system(2, ForceLaw::Quadratic);
+    let plane = Plane::new([
+        Axis { parameter: Parameter::Omega, range: (omega - 0.6, omega + 0.6) },
+        Axis { parameter: Parameter::Beta, range: (0.0, 0.04) },
+    ])
+    .expect("a window");
+    let line = Line { along: 1, at: omega };
+    let starts = bifurcations_along_line(&system, &plane, line, false).expect("a line");
+    let start = starts.iter().find(|start| start.kind == kind).expect("a start");
+    bencher.bench(|| trace_curve(black_box(&system), start, &plane).expect("a curve"));
 }
 
 fn main() {

@@ -4,6 +4,7 @@ use egui::Color32;
 
 use super::theme::Tokens;
 use crate::dynamics::Instability;
+use crate::dynamics::motion::Motion;
 
 /// Decay and growth per excitation period at which a chart's colour has gone two thirds of its way.
 const DECAY_SCALE: f64 = 0.01;
@@ -17,6 +18,15 @@ pub(super) fn instability(kind: Instability, tokens: &Tokens) -> Color32 {
         Instability::PeriodDoubling => tokens.exact,
         Instability::NeimarkSacker => tokens.poincare,
         Instability::Fold => tokens.warning,
+    }
+}
+
+/// The name of an instability's kind.
+pub(super) const fn name(kind: Instability) -> &'static str {
+    match kind {
+        Instability::Fold => "fold",
+        Instability::PeriodDoubling => "period doubling",
+        Instability::NeimarkSacker => "Neimark–Sacker",
     }
 }
 
@@ -44,6 +54,20 @@ pub(super) fn multiplier(value: Option<(f64, f64)>, tokens: &Tokens) -> Color32 
         let colour = instability(kind_of(argument), tokens);
         tokens.inset.lerp_to_gamma(colour, 0.55 + 0.45 * share as f32)
     }
+}
+
+/// The colour of a class of motion.
+pub(super) fn motion(motion: Motion, tokens: &Tokens) -> Color32 {
+    let colour = match motion {
+        Motion::Periodic { periods: 1 } => tokens.numeric.gamma_multiply(0.55),
+        Motion::Periodic { periods: 2 } => tokens.exact,
+        Motion::Periodic { .. } => tokens.warning,
+        Motion::Quasiperiodic => tokens.poincare,
+        Motion::Chaotic => tokens.ok,
+        Motion::Escape { .. } | Motion::Contact { .. } => return tokens.track,
+        Motion::Undecided { .. } => return tokens.ghost,
+    };
+    tokens.inset.lerp_to_gamma(colour, 0.85)
 }
 
 /// A colour of the sequential scale (viridis, legible without colour vision) at 0 to 1.

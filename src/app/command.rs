@@ -1,6 +1,7 @@
 //! What panels ask for. They draw from shared references and push commands; one place carries them out.
 
 use super::view::{Layer, MapWindow, Panel, SweepView, Tab};
+use crate::model::Parameter;
 use crate::scenario::Scenario;
 
 /// A wish of the user.
@@ -16,6 +17,8 @@ pub(super) enum Command {
     Chart(Layer),
     /// Sweep something else.
     Sweep(SweepView),
+    /// Trace curves in another plane.
+    OpenPlane([Parameter; 2]),
     /// Load a figure of the paper.
     LoadFigure(u8),
     /// Fill the page with a panel, or show all of them again.

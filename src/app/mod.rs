@@ -119,6 +119,7 @@ impl App {
             Command::LookAt(window) => self.look_at(window),
             Command::Chart(layer) => self.view.layer = layer,
             Command::Sweep(sweep) => self.view.sweep = sweep,
+            Command::OpenPlane(plane) => self.view.plane = plane,
             Command::LoadFigure(number) => self.load_figure(number),
             Command::Enlarge(panel) => self.view.enlarged = panel,
             Command::Pin(keep) => self.session.pin(keep),
@@ -175,7 +176,7 @@ impl App {
 
     /// Scenario, view and newest results as JSON; the format is described in the README.
     pub fn state_json(&self) -> String {
-        report::state(&self.view, &self.session)
+        report::state(&self.view, &self.session, &mut self.crew.borrow_mut().studies)
     }
 
     /// Replaces scenario and view by what `json` holds: a view as stored, or a scenario alone.

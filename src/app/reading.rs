@@ -3,9 +3,11 @@
 use super::map::Boundaries;
 use super::session::Shown;
 use super::widgets::number::significant;
-use crate::dynamics::Outcome;
-use crate::model::force::Exact;
-use crate::model::{Device, RestForce};
+use crate::dynamics::motion::Motion;
+use crate::dynamics::verdict::{ForcedSummary, Verdict, Warning, force_law_warning};
+use crate::dynamics::{Instability, Outcome};
+use crate::model::Device;
+use crate::theory::Resonance;
 
 /// How the headline is coloured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,36 +33,74 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Reads `shown`, with the boundaries of its structure when there are some.
-    pub(super) fn new(shown: &Shown, boundaries: Option<&Boundaries>) -> Self {
-        let (tone, headline) = headline(shown);
+    /// Reads `shown`, with the boundaries of its structure when there are some, and the `verdict` on the same scenario
+    /// once it is there: until then the stroboscopic points of the run alone decide.
+    pub(super) fn new(shown: &Shown, boundaries: Option<&Boundaries>, verdict: Option<&Verdict>) -> Self {
+        let (tone, headline) = verdict.map_or_else(|| first_look(shown), |verdict| headline(verdict.motion));
+        let mut facts = Vec::new();
+        facts.extend(resonance(shown, boundaries, verdict));
+        facts.extend(verdict.and_then(multiplier));
+        facts.extend(measured(shown, verdict));
         let mut remarks = Vec::new();
-        remarks.extend(settling(shown));
+        match verdict {
+            Some(verdict) => {
+                remarks.extend(verdict.forced.as_ref().and_then(|forced| forced_motion(forced, verdict)));
+                remarks.extend(verdict.coexists.iter().map(ToString::to_string));
+                remarks.extend(disagreement(verdict));
+                remarks.extend(verdict.warnings.iter().map(ToString::to_string));
+            }
+            None => {
+                remarks.extend(settling(shown));
+                remarks.extend(force_law(shown).map(|warning| warning.to_string()));
+            }
+        }
         remarks.extend(boundaries.and_then(|boundaries| theories(shown, boundaries)));
-        remarks.extend(force_law(shown));
-        if let Outcome::Escaped { .. } = shown.run.outcome() {
-            remarks.push("the exact force law (under Model) has no such barrier".to_owned());
-        }
-        Self { tone, headline, facts: facts(shown), remarks }
+        Self { tone, headline, facts, remarks }
     }
 }
 
-fn headline(shown: &Shown) -> (Tone, String) {
-    match (shown.run.outcome(), shown.run.recurrence) {
-        (Outcome::Escaped { time }, _) => (Tone::Alarming, format!("Escape at t = {}", significant(time, 4))),
-        (Outcome::Contact { time }, _) => {
-            (Tone::Alarming, format!("Contact at t = {}", significant(time, 4)))
-        }
+/// By the run alone.
+fn first_look(shown: &Shown) -> (Tone, String) {
+    match (shown.run.outcome(), shown.run.recurrence.map(|found| found.period)) {
+        (Outcome::Escaped { time }, _) => headline(Motion::Escape { time }),
+        (Outcome::Contact { time }, _) => headline(Motion::Contact { time }),
         (Outcome::Completed, None) => (Tone::Plain, "Too short to classify".to_owned()),
-        (Outcome::Completed, Some(found)) => match found.period {
-            Some(1) => (Tone::Plain, "Period 1".to_owned()),
-            Some(period) => (Tone::Notable, format!("Period {period}")),
-            None => (Tone::Notable, "Not periodic".to_owned()),
-        },
+        (Outcome::Completed, Some(Some(periods))) => headline(Motion::Periodic { periods }),
+        (Outcome::Completed, Some(None)) => (Tone::Notable, "Not periodic".to_owned()),
     }
 }
 
-fn facts(shown: &Shown) -> Vec<String> {
+fn headline(motion: Motion) -> (Tone, String) {
+    match motion {
+        Motion::Periodic { periods: 1 } => (Tone::Plain, "Period 1".to_owned()),
+        Motion::Periodic { periods } => (Tone::Notable, format!("Period {periods}")),
+        Motion::Quasiperiodic => (Tone::Notable, "Quasiperiodic: a torus".to_owned()),
+        Motion::Chaotic => (Tone::Notable, "Chaotic".to_owned()),
+        Motion::Escape { time } => (Tone::Alarming, format!("Escape at t = {}", significant(time, 4))),
+        Motion::Contact { time } => (Tone::Alarming, format!("Contact at t = {}", significant(time, 4))),
+        Motion::Undecided { why } => (Tone::Notable, format!("Undecided: {why}")),
+    }
+}
+
+/// Which resonance a motion other than the forced one belongs to.
+fn resonance(shown: &Shown, boundaries: Option<&Boundaries>, verdict: Option<&Verdict>) -> Option<String> {
+    let motion = verdict?.motion;
+    let near = boundaries?.resonance_near(shown.run.system.parameters.omega)?;
+    let name = match (motion, near) {
+        (Motion::Periodic { periods }, Resonance::First) if periods % 2 == 0 => "subharmonic of mode 1",
+        (Motion::Periodic { periods }, Resonance::Second) if periods % 2 == 0 => "subharmonic of mode 2",
+        (Motion::Quasiperiodic, Resonance::Sum) => "combination of modes 1 and 2",
+        _ => return None,
+    };
+    Some(name.to_owned())
+}
+
+fn multiplier(verdict: &Verdict) -> Option<String> {
+    let found = verdict.multiplier?;
+    Some(format!("largest multiplier {}", significant(found.modulus, 4)))
+}
+
+fn measured(shown: &Shown, verdict: Option<&Verdict>) -> Vec<String> {
     let summary = match (&shown.run.summary, shown.run.outcome()) {
         (Some(summary), Outcome::Completed) => summary,
         // Voltages of a tip that has flown off mean nothing.
@@ -70,17 +110,39 @@ fn facts(shown: &Shown) -> Vec<String> {
         _ => return Vec::new(),
     };
     let system = &shown.run.system;
-    let gap = system.equilibrium.gap;
-    let mut facts = vec![
-        format!("{} V rms", significant(summary.v_rms, 3)),
-        format!("{} V peak", significant(summary.v_peak, 3)),
-    ];
+    let v_rms = verdict.and_then(|verdict| verdict.v_rms).unwrap_or(summary.v_rms);
+    let lowest = verdict.and_then(|verdict| verdict.tip_over_gap).map(|(low, _)| low);
+    let lowest = lowest.unwrap_or(summary.tip_min / system.equilibrium.gap);
+    let mut facts = vec![format!("{} V rms", significant(v_rms, 3))];
     if let Some(resistance) = Device::default().resistance_of(system.parameters.kappa) {
-        facts.push(format!("{} µW", significant(1e6 * summary.v_rms.powi(2) / resistance, 3)));
+        facts.push(format!("{} µW", significant(1e6 * v_rms.powi(2) / resistance, 3)));
     }
-    let nearest = -100.0 * summary.tip_min / gap;
-    facts.push(format!("tip closes {} % of the gap", significant(nearest.max(0.0), 2)));
+    facts.push(format!("tip closes {} % of the gap", significant((-100.0 * lowest).max(0.0), 2)));
     facts
+}
+
+/// What the forced motion does, where the motion reached is another one or it has lost its stability.
+fn forced_motion(forced: &ForcedSummary, verdict: &Verdict) -> Option<String> {
+    if forced.stable {
+        // Said by what coexists, or the motion reached is the forced one.
+        return (verdict.motion != Motion::Periodic { periods: 1 }).then(|| {
+            format!("the forced motion is stable (|μ| = {})", significant(forced.multiplier.modulus, 4))
+        });
+    }
+    let how = match forced.instability? {
+        Instability::Fold => "fold",
+        Instability::PeriodDoubling => "period doubling",
+        Instability::NeimarkSacker => "Neimark–Sacker",
+    };
+    let from =
+        forced.unstable_from.map_or(String::new(), |beta| format!(" from β = {}", significant(beta, 3)));
+    let modulus = significant(forced.multiplier.modulus, 4);
+    Some(format!("the forced motion is unstable{from}: {how}, |μ| = {modulus}"))
+}
+
+fn disagreement(verdict: &Verdict) -> Option<String> {
+    (!verdict.disagreeing.is_empty())
+        .then(|| format!("by the run alone: {}; other evidence contradicts it", verdict.suspected))
 }
 
 fn settling(shown: &Shown) -> Option<String> {
@@ -93,38 +155,23 @@ fn settling(shown: &Shown) -> Option<String> {
     }
 }
 
-/// Whether the two theories call the operating point stable, where it is near a resonance.
+/// Where the two theories put the boundary, near a resonance.
 fn theories(shown: &Shown, boundaries: &Boundaries) -> Option<String> {
     let p = &shown.run.system.parameters;
     let resonance = boundaries.resonance_near(p.omega)?;
     let word = |boundary: Option<f64>| match boundary {
-        Some(beta) if p.beta > beta => format!("unstable (from β = {})", significant(beta, 3)),
-        Some(beta) => format!("stable (up to β = {})", significant(beta, 3)),
+        Some(beta) if p.beta > beta => format!("unstable from β = {}", significant(beta, 3)),
+        Some(beta) => format!("stable up to β = {}", significant(beta, 3)),
         None => "stable".to_owned(),
     };
     let published = boundaries.published.as_ref()?.boundary(resonance, p.omega);
     let coupled = boundaries.coupled.as_ref()?.boundary(resonance, p.omega);
-    Some(format!("forced motion: published theory {}, coupled modes {}", word(published), word(coupled)))
+    Some(format!("published theory: {}; coupled modes: {}", word(published), word(coupled)))
 }
 
 /// How wrong a truncated force law is where the tip comes closest to the magnet.
-fn force_law(shown: &Shown) -> Option<String> {
+fn force_law(shown: &Shown) -> Option<Warning> {
     let run = &shown.run;
-    let system = &run.system;
-    if system.parameters.c0 == 0.0 || run.outcome() != Outcome::Completed {
-        return None;
-    }
-    let closest = run.summary?.tip_min;
-    let exact = Exact::new(&system.magnet(), &system.equilibrium);
-    let contact = exact.contact()?;
-    if closest <= contact {
-        return Some(
-            "the tip passes through the magnet: only the exact force law knows of contact".to_owned(),
-        );
-    }
-    let (true_rest, used) = (exact.rest(closest), system.rest_force().rest(closest));
-    let missing = 100.0 * (1.0 - used / true_rest);
-    let word = if missing > 0.0 { "weak" } else { "strong" };
-    (missing.abs() >= 10.0)
-        .then(|| format!("force law {} % too {word} at closest approach", significant(missing.abs(), 2)))
+    let completed = run.outcome() == Outcome::Completed;
+    run.summary.filter(|_| completed).and_then(|summary| force_law_warning(&run.system, summary.tip_min))
 }

@@ -3,11 +3,12 @@
 use serde::Serialize;
 use serde_json::Value;
 
+use super::crew::Studies;
 use super::session::{Session, Status};
 use super::view::View;
-use crate::dynamics::Outcome;
 use crate::dynamics::poincare::{PhasePoint, Recurrence};
 use crate::dynamics::summary::Summary;
+use crate::dynamics::{Outcome, Verdict};
 use crate::scenario::Scenario;
 
 #[derive(Serialize)]
@@ -22,6 +23,10 @@ struct State<'a> {
     /// Frames from question to answer, the last ones.
     frames_to_answer: &'a std::collections::VecDeque<u64>,
     result: Option<Answer<'a>>,
+    /// Verdict on the scenario in view, once it is there.
+    verdict: Option<&'a Verdict>,
+    /// Done part, 0 to 1, of what is being computed beside the run.
+    progress: Vec<(&'static str, f64)>,
 }
 
 #[derive(Serialize)]
@@ -38,7 +43,8 @@ struct Answer<'a> {
 }
 
 /// The answer of `harvester.state()`.
-pub(super) fn state(view: &View, session: &Session) -> String {
+pub(super) fn state(view: &View, session: &Session, studies: &mut Studies) -> String {
+    let progress = studies.progress();
     let (status, error) = match session.status() {
         Status::Done => ("done", None),
         Status::Computing(_) => ("computing", None),
@@ -63,6 +69,11 @@ pub(super) fn state(view: &View, session: &Session) -> String {
         shown_generation: session.shown.as_ref().map(|shown| shown.generation),
         frames_to_answer: &session.delays,
         result,
+        verdict: studies
+            .inspection(&view.scenario)
+            .filter(|(_, current)| *current)
+            .map(|(found, _)| &found.verdict),
+        progress,
     };
     serde_json::to_string(&state).unwrap_or_default()
 }

@@ -94,6 +94,14 @@ pub enum Panel {
     OrbitDiagram,
     /// Response curves.
     Response,
+    /// Curves of bifurcations.
+    Curves,
+    /// Spectrum of the voltage.
+    Spectrum,
+    /// What the verdict rests on.
+    Evidence,
+    /// Basins of attraction.
+    Basins,
 }
 
 /// What is swept, and how.
@@ -156,6 +164,8 @@ pub struct View {
     pub layer: Layer,
     /// What is swept.
     pub sweep: SweepView,
+    /// The two parameters of the plane of bifurcation curves.
+    pub plane: [Parameter; 2],
 }
 
 impl Default for View {
@@ -172,6 +182,7 @@ impl Default for View {
             beam_moves: true,
             layer: Layer::default(),
             sweep: SweepView::default(),
+            plane: [Parameter::Omega, Parameter::Beta],
         }
     }
 }

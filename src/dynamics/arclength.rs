@@ -21,8 +21,10 @@ const RENEWAL: usize = 4;
 const SETTLED: f64 = 1e-9;
 /// A defect below this is rounding, whatever correction a nearly singular matrix makes of it.
 const ROUNDING: f64 = 1e-14;
-/// Step of the difference quotient in a parameter, relative to the width of its range.
+/// Longest step of a difference quotient in a parameter, relative to the width of its range.
 pub(super) const DIFFERENCE: f64 = 1e-6;
+/// Smallest component of a unit vector along a parameter by which a difference quotient's step is scaled.
+const STEEP: f64 = 0.1;
 /// Prepared maps kept beside the present one.
 const SPARE: usize = 3;
 
@@ -52,6 +54,8 @@ pub(super) struct Family<const K: usize> {
     pub(super) system: ReducedSystem,
     pub(super) periods: usize,
     pub(super) solver: OrbitSolver<Law>,
+    /// Step of difference quotients in a parameter, relative to the width of its range.
+    pub(super) difference: f64,
     axes: [Axis; K],
     /// Units of the places' components.
     units: Vec<f64>,
@@ -68,7 +72,8 @@ impl<const K: usize> Family<K> {
         let gap = solver.map().gap();
         let state = solver.map().scales().iter().map(|scale| scale * gap);
         let units = state.chain(axes.iter().map(Axis::width)).collect();
-        Ok(Self { system: system.clone(), periods, solver, axes, units, spare: Vec::new(), columns: None })
+        let (difference, spare, columns) = (DIFFERENCE, Vec::new(), None);
+        Ok(Self { system: system.clone(), periods, solver, difference, axes, units, spare, columns })
     }
 
     /// Length 2N + 1 of the state.
@@ -147,19 +152,51 @@ impl<const K: usize> Family<K> {
         Ok(self.solver.defect() / gap)
     }
 
-    /// The difference quotient's step in component `index` of `place`: backwards at the end of what is accepted.
-    pub(super) fn difference(&self, place: &DVector<f64>, k: usize) -> f64 {
-        let index = self.dimension() + k;
-        let maximum = self.axes[k].parameter.range().1 / self.units[index];
-        if place[index] + DIFFERENCE > maximum { -DIFFERENCE } else { DIFFERENCE }
-    }
-
     /// Whether the model accepts the parameters at `place`.
-    pub(super) fn accepts(&self, place: &DVector<f64>) -> bool {
+    fn accepts(&self, place: &DVector<f64>) -> bool {
         self.values(place).iter().zip(&self.axes).all(|(value, axis)| {
             let (minimum, maximum) = axis.parameter.range();
             (minimum..=maximum).contains(&axis.accepted(*value))
         })
+    }
+
+    /// Goes from `place` along a unit `vector` by the step of a difference quotient, and evaluates there on the same
+    /// grid. Returns the step, which is taken backwards where the model ends ahead or the grid changes.
+    ///
+    /// A parameter that changes by as much as the vector at all does so by the same step every time, so that its map
+    /// is prepared once.
+    pub(super) fn step_along(
+        &mut self,
+        place: &DVector<f64>,
+        vector: &DVector<f64>,
+    ) -> Result<f64, OrbitError> {
+        let n = self.dimension();
+        let (mut steepest, mut slope) = (n, 0.0_f64);
+        for k in n..n + K {
+            if vector[k].abs() > slope.abs() && self.axes[k - n].parameter != Parameter::Beta {
+                (steepest, slope) = (k, vector[k]);
+            }
+        }
+        let steep = slope.abs() > STEEP;
+        let length = if steep { self.difference / slope } else { self.difference };
+        self.set(self.values(place))?;
+        let steps = self.solver.map().steps_per_period();
+        for step in [length, -length] {
+            let mut moved = place + vector * step;
+            if steep {
+                moved[steepest] = place[steepest] + self.difference.copysign(step * slope);
+            }
+            if !self.accepts(&moved) {
+                continue;
+            }
+            self.set(self.values(&moved))?;
+            if self.solver.map().steps_per_period() == steps {
+                let (state, beta) = (self.state(&moved), self.beta());
+                self.solver.evaluate_unrefined(&state, beta, self.periods)?;
+                return Ok(step);
+            }
+        }
+        Err(OrbitError::Singular)
     }
 
     /// Renews the derivatives with respect to the parameters at `place`, where the solver is and has this `defect`.
@@ -167,14 +204,13 @@ impl<const K: usize> Family<K> {
         let n = self.dimension();
         let mut columns = DMatrix::zeros(n, K);
         for k in 0..K {
-            if self.axes[k].parameter == Parameter::Beta {
-                continue;
+            if self.axes[k].parameter != Parameter::Beta {
+                let mut along = DVector::zeros(n + K);
+                along[n + k] = 1.0;
+                let step = self.step_along(place, &along)?;
+                let there = self.solver.defect() / self.solver.map().gap();
+                columns.set_column(k, &((there - defect) / step));
             }
-            let step = self.difference(place, k);
-            let mut moved = place.clone();
-            moved[n + k] += step;
-            let there = self.defect(&moved)?;
-            columns.set_column(k, &((there - defect) / step));
         }
         self.columns = Some(columns);
         self.set(self.values(place))
@@ -197,8 +233,8 @@ impl<const K: usize> Family<K> {
         // The solver's scales follow the system; the places keep the first one's.
         let scales: Vec<f64> = self.solver.map().scales().to_vec();
         let matrix = self.solver.newton_matrix();
-        for j in 0..n {
-            derivative.set_column(j, &(matrix.column(j) * (-self.units[j] / (scales[j] * gap))));
+        for (j, (unit, scale)) in self.units.iter().zip(&scales).enumerate() {
+            derivative.set_column(j, &(matrix.column(j) * (-unit / (scale * gap))));
         }
         for (k, axis) in self.axes.iter().enumerate() {
             if axis.parameter == Parameter::Beta {

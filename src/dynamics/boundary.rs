@@ -281,8 +281,10 @@ fn locate<F: RestForce>(
     let test = |orbit: &Forced| kind.test(&orbit.multipliers);
     let (a, b) = (test(stable), test(unstable));
     let mut last = unstable.clone();
-    let smooth = (a < 0.0) != (b < 0.0);
-    // Without damping the product of pairs vanishes everywhere, and only stability itself is left to ask for.
+    // Without damping the product of pairs is all rounding, whatever its sign, and only stability itself is left to
+    // ask for.
+    let damped = stable.multipliers.iter().all(|mu| (mu.norm() - 1.0).abs() > MARGIN);
+    let smooth = (a < 0.0) != (b < 0.0) && (damped || kind != Instability::NeimarkSacker);
     let (a, b) = if smooth { (a, b) } else { (-1.0, 1.0) };
     root((stable.beta, a), (unstable.beta, b), LOCATED * limit, |beta| {
         let start = if (beta - stable.beta).abs() < (beta - last.beta).abs() { stable } else { &last };

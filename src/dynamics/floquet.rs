@@ -1,17 +1,13 @@
 //! Floquet multipliers of a periodic motion, and what they say about how it loses stability.
 
-use nalgebra::{Complex, DMatrix, DVector, Schur};
+use nalgebra::{Complex, DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::OrbitError;
+use crate::model::eigenvalues::{SHIFTS, eigenvalues};
 
-/// Cap of the eigenvalue iteration; 17 x 17 matrices take about forty.
-const MAX_ITERATIONS: usize = 1000;
 /// Relative size at which the iteration drops an entry: above its own rounding errors.
 const DEFLATION: f64 = 4e-16;
-/// Diagonals, in units of the largest entry, that are tried until the iteration converges: it judges an entry by
-/// the diagonal beside it, which vanishes for multipliers a quarter turn apart.
-const SHIFTS: [f64; 4] = [0.0, 1.37, 0.71, 2.93];
 /// A multiplier is real when its imaginary part is below this fraction of its modulus.
 const REAL: f64 = 1e-9;
 
@@ -72,10 +68,8 @@ pub fn multipliers(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, OrbitErro
     if matrix.iter().any(|entry| !entry.is_finite()) {
         return Err(OrbitError::Multipliers);
     }
-    let mut values = SHIFTS
-        .iter()
-        .find_map(|shift| shifted_eigenvalues(matrix, shift * largest))
-        .ok_or(OrbitError::Multipliers)?;
+    let shifts = std::iter::once(0.0).chain(SHIFTS.map(|shift| shift * largest));
+    let mut values = eigenvalues(matrix, shifts, DEFLATION).ok_or(OrbitError::Multipliers)?;
     values.sort_by(|a, b| b.norm_sqr().total_cmp(&a.norm_sqr()).then(b.im.total_cmp(&a.im)));
     Ok(values)
 }
@@ -94,14 +88,4 @@ pub(super) fn eigenvector(matrix: &DMatrix<f64>, multiplier: f64) -> Result<DVec
         direction = solver.solve(&direction).ok_or(OrbitError::Singular)?.normalize();
     }
     if direction.iter().all(|value| value.is_finite()) { Ok(direction) } else { Err(OrbitError::Singular) }
-}
-
-/// Eigenvalues of `matrix`, computed on a diagonal moved by `shift`.
-fn shifted_eigenvalues(matrix: &DMatrix<f64>, shift: f64) -> Option<Vec<Complex<f64>>> {
-    let mut moved = matrix.clone();
-    for k in 0..moved.nrows() {
-        moved[(k, k)] += shift;
-    }
-    let schur = Schur::try_new(moved, DEFLATION, MAX_ITERATIONS)?;
-    Some(schur.complex_eigenvalues().iter().map(|value| value - shift).collect())
 }

@@ -67,7 +67,7 @@ impl Inquiry {
     /// Prepares the verdict on the start of `system` in `initial` (length 2N + 1) with a run of length `t_end`.
     ///
     /// # Errors
-    /// [`IntegrationError::InitialState`], [`IntegrationError::TooStiff`].
+    /// [`IntegrationError::InitialState`].
     pub fn new(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Self, IntegrationError> {
         let search = Search::new(system, initial, Horizon::full(t_end))?;
         Ok(Self {
@@ -131,6 +131,21 @@ impl Inquiry {
         Ok(None)
     }
 
+    /// The motion reached, once its stage is done.
+    pub fn reached(&self) -> Option<&Reached> {
+        self.findings.reached.as_ref()
+    }
+
+    /// The spectrum of its voltage, once its stage is done.
+    pub fn spectrum(&self) -> Option<&VoltageSpectrum> {
+        self.findings.spectrum.as_ref()
+    }
+
+    /// The forced motion at the same parameters, once its stage is done.
+    pub fn forced(&self) -> Option<&ForcedMotion> {
+        self.findings.forced.as_ref()
+    }
+
     /// Names the present stage, for a progress line.
     pub fn doing(&self) -> &'static str {
         match self.stage {
@@ -178,12 +193,12 @@ impl Inquiry {
     }
 
     /// Puts everything together.
-    fn conclude(&mut self) -> Option<Verdict> {
-        let Findings { reached, exponent, spectrum, forced, from_rest } = std::mem::take(&mut self.findings);
-        let reached = reached?;
+    fn conclude(&self) -> Option<Verdict> {
+        let Findings { reached, exponent, spectrum, forced, from_rest } = &self.findings;
+        let reached = reached.as_ref()?;
         let suspected = reached.motion;
         let gap = self.system.equilibrium.gap;
-        let rests_on = self.evidence(&reached, exponent.as_ref(), spectrum.as_ref());
+        let rests_on = self.evidence(reached, exponent.as_ref(), spectrum.as_ref());
         let disagreeing: Vec<Source> =
             rests_on.iter().filter(|piece| piece.agrees == Some(false)).map(|piece| piece.source).collect();
         let motion = if disagreeing.is_empty() {
@@ -203,9 +218,10 @@ impl Inquiry {
         warnings.extend(forced_warning(forced.as_ref()));
         let forced_orbit = forced.as_ref().and_then(|forced| forced.orbit.as_ref());
         let mut coexists = Vec::new();
-        coexists.extend(forced_orbit.and_then(|orbit| self.beside_forced(&reached, orbit)));
-        coexists.extend(from_rest.as_ref().and_then(|other| self.beside_rest(&reached, other)));
-        let (peaks, basic) = spectrum.map_or((Vec::new(), None), |found| (found.peaks, found.basic));
+        coexists.extend(forced_orbit.and_then(|orbit| self.beside_forced(reached, orbit)));
+        coexists.extend(from_rest.as_ref().and_then(|other| self.beside_rest(reached, other)));
+        let (peaks, basic) =
+            spectrum.as_ref().map_or((Vec::new(), None), |found| (found.peaks.clone(), found.basic));
         Some(Verdict {
             motion,
             suspected,
@@ -214,7 +230,7 @@ impl Inquiry {
                 .as_ref()
                 .zip(forced_orbit)
                 .map(|(forced, orbit)| ForcedSummary::new(forced, orbit)),
-            exponent,
+            exponent: *exponent,
             v_rms: reached.measures.map(|measures| measures.v_rms),
             power: reached.measures.map(|measures| measures.power),
             tip_over_gap: reached.measures.map(|measures| (measures.tip_min / gap, measures.tip_max / gap)),

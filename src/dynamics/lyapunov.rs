@@ -200,7 +200,7 @@ impl Lyapunov {
     /// best one whose transient has gone.
     ///
     /// # Errors
-    /// [`IntegrationError::InitialState`], [`IntegrationError::TooStiff`].
+    /// [`IntegrationError::InitialState`].
     pub fn new(system: &ReducedSystem, state: &[f64]) -> Result<Self, IntegrationError> {
         Ok(Self {
             flow: flow::begin(system, state)?,

@@ -154,14 +154,12 @@ impl<F: RestForce> OrbitSolver<F> {
     /// # Errors
     /// [`OrbitError::Multipliers`].
     pub fn multipliers(&self) -> Result<Vec<Complex<f64>>, OrbitError> {
-        let mut values = multipliers(&self.matrix)?;
-        if self.charge.is_some() {
-            let distance = |mu: &Complex<f64>| (mu - 1.0).norm();
-            let nearest =
-                (0..values.len()).min_by(|a, b| distance(&values[*a]).total_cmp(&distance(&values[*b])));
-            nearest.map(|i| values.remove(i));
-        }
-        Ok(values)
+        let Some((c, theta)) = &self.charge else { return multipliers(&self.matrix) };
+        // Among the states without charge, where the voltage follows from the displacements.
+        let last = self.state.len() - 1;
+        let voltage = |j: usize| theta.get(j).map_or(0.0, |theta| theta / (c * self.map.scales()[last]));
+        let entry = |i, j| self.matrix[(i, j)] + self.matrix[(i, last)] * voltage(j);
+        multipliers(&DMatrix::from_fn(last, last, entry))
     }
 
     /// d(state)/d(beta) along the orbits through the one found last, length 2N + 1.
@@ -208,6 +206,17 @@ impl<F: RestForce> OrbitSolver<F> {
             self.map.refine()?;
         }
         Ok(())
+    }
+
+    /// The same on the present grid, be it fine enough or not: for differences, in which its errors cancel.
+    pub(super) fn evaluate_unrefined(
+        &mut self,
+        state: &[f64],
+        beta: f64,
+        periods: usize,
+    ) -> Result<(), OrbitError> {
+        self.begin(state)?;
+        self.evaluate(beta, periods).map(|_| ())
     }
 
     /// Map and derivative at the present state; returns the estimated error in units of what is allowed.

@@ -60,6 +60,9 @@ pub enum OrbitError {
         /// Largest number allowed.
         most: usize,
     },
+    /// Without any damping tori surround every stable orbit; none branches off.
+    #[error("without any damping there is no onset of a modulation")]
+    Undamped,
     /// A curve of orbits bends more sharply than its shortest steps.
     #[error("the curve bends too sharply to be followed")]
     Sharp,

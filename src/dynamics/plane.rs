@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::OrbitError;
-use crate::model::{ModelError, Parameter};
+use crate::model::{ModelError, Parameter, ReducedSystem};
 
 /// One number that changes, with its range, whose width serves as its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -61,6 +61,18 @@ impl Plane {
     /// Both axes: the horizontal one, the vertical one.
     pub fn axes(&self) -> &[Axis; 2] {
         &self.axes
+    }
+
+    /// The device `system` with the plane's parameters at the point `at`.
+    ///
+    /// # Errors
+    /// [`ModelError`] when there is none.
+    pub fn system(&self, system: &ReducedSystem, at: [f64; 2]) -> Result<ReducedSystem, ModelError> {
+        let mut set = *system.parameters;
+        for (axis, value) in self.axes.iter().zip(at) {
+            *axis.parameter.get_mut(&mut set) = axis.accepted(value);
+        }
+        system.with_numbers(set)
     }
 
     /// Distance of two points in units of the ranges' widths (dimensionless).

@@ -50,33 +50,34 @@ pub static RULE: LazyLock<Rule> = LazyLock::new(|| {
             }
         }
     }
-    let projection_of_weighted: [NodeValues; NODES] = std::array::from_fn(|degree| {
-        nodes.map(|node| (2 * degree + 1) as f64 * legendre(degree, 2.0 * node - 1.0).0)
-    });
-    let projection = projection_of_weighted.map(|row| std::array::from_fn(|j| row[j] * weights[j]));
-    let highest = [projection[NODES - 1], projection[NODES - 2]];
-    let highest_of_weighted = [projection_of_weighted[NODES - 1], projection_of_weighted[NODES - 2]];
-    let mut rule = Rule {
-        nodes,
-        cardinal,
-        projection,
-        highest,
-        highest_of_weighted,
-        halves: [[[0.0; NODES]; NODES]; 2],
-        moments: [[0.0; NODES]; MOST_TERMS],
+    // By a rule that is exact up to degree 31, and from the nodes as they are rounded.
+    let cardinal_at = |x: f64| -> NodeValues {
+        std::array::from_fn(|l| {
+            let others = nodes.iter().enumerate().filter(|(j, _)| *j != l);
+            others.map(|(_, node)| (x - node) / (nodes[l] - node)).product()
+        })
     };
-    rule.halves = [0.0, 0.5].map(|from| std::array::from_fn(|l| rule.values(&rule.unit(l), from, 0.5)));
-    // Exact up to degree 31.
-    let (points, weights) = gauss_legendre(16);
-    for (x, weight) in points.iter().zip(&weights) {
-        let cardinal: NodeValues = std::array::from_fn(|l| rule.values(&rule.unit(l), *x, 0.0)[0]);
+    let (mut projection, mut moments) = ([[0.0; NODES]; NODES], [[0.0; NODES]; MOST_TERMS]);
+    let (points, fine_weights) = gauss_legendre(16);
+    for (x, weight) in points.iter().zip(&fine_weights) {
+        let values = cardinal_at(*x);
+        for (degree, row) in projection.iter_mut().enumerate() {
+            let factor = (2 * degree + 1) as f64 * legendre(degree, 2.0 * x - 1.0).0;
+            add_scaled(row, weight * factor, &values);
+        }
         let mut power = *weight;
-        for row in &mut rule.moments {
-            add_scaled(row, power, &cardinal);
+        for row in &mut moments {
+            add_scaled(row, power, &values);
             power *= 1.0 - x;
         }
     }
-    rule
+    let halves = [0.0, 0.5].map(|from| {
+        let at_nodes = nodes.map(|node| cardinal_at(from + 0.5 * node));
+        std::array::from_fn(|l| at_nodes.map(|values| values[l]))
+    });
+    let highest = [projection[NODES - 1], projection[NODES - 2]];
+    let highest_of_weighted = highest.map(|row| std::array::from_fn(|j| row[j] / weights[j]));
+    Rule { nodes, cardinal, projection, highest, highest_of_weighted, halves, moments }
 });
 
 impl Rule {
@@ -111,11 +112,6 @@ impl Rule {
     /// Legendre coefficients of the polynomial with the given node values.
     pub(super) fn coefficients(&self, values: &NodeValues) -> NodeValues {
         self.projection.map(|row| row.iter().zip(values).map(|(factor, value)| factor * value).sum())
-    }
-
-    /// Legendre coefficients of the l-th cardinal polynomial.
-    fn unit(&self, l: usize) -> NodeValues {
-        self.projection.map(|row| row[l])
     }
 
     /// Values of the polynomial with the Legendre `coefficients` at the nodes of a part of the step, which begins
@@ -178,9 +174,9 @@ mod tests {
         let at = |t: f64| taylor.iter().rev().fold(0.0, |sum, c| sum * t + c);
         assert!((at(0.6) - p(0.7)).abs() < 1e-13);
         for (half, from) in RULE.halves.iter().zip([0.0, 0.5]) {
-            for i in 0..NODES {
-                let value: f64 = (0..NODES).map(|l| half[l][i] * values[l]).sum();
-                assert!((value - p(from + 0.5 * RULE.nodes[i])).abs() < 1e-14);
+            for (i, node) in RULE.nodes.iter().enumerate() {
+                let value: f64 = half.iter().zip(&values).map(|(row, value)| row[i] * value).sum();
+                assert!((value - p(from + 0.5 * node)).abs() < 1e-14);
             }
         }
     }

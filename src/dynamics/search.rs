@@ -74,7 +74,7 @@ impl Search {
     /// Prepares the search for what the start of `system` in `initial` (length 2N + 1) at t = 0 leads to.
     ///
     /// # Errors
-    /// [`IntegrationError::InitialState`], [`IntegrationError::TooStiff`].
+    /// [`IntegrationError::InitialState`].
     pub fn new(system: &ReducedSystem, initial: &[f64], horizon: Horizon) -> Result<Self, IntegrationError> {
         let periods = horizon.t_end / system.parameters.period();
         let end = (periods.ceil() as usize).max(LEAST_PERIODS);

@@ -42,7 +42,7 @@ impl From<Complex<f64>> for Multiplier {
 }
 
 /// The forced motion at the same parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ForcedSummary {
     /// Its largest multiplier over one excitation period.
     pub multiplier: Multiplier,
@@ -194,7 +194,7 @@ pub fn force_law_warning(system: &ReducedSystem, tip_min: f64) -> Option<Warning
 }
 
 /// What is known of the motion that a start leads to.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// Its class; undecided when the evidence disagrees.
     pub motion: Motion,

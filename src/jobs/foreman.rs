@@ -7,33 +7,43 @@ use super::work::{Finding, Work};
 /// How many workers may die over a piece before it counts as impossible.
 const MOST_DEATHS: u32 = 2;
 
-/// A study that may be replaced by a newer one, with the number of the newest.
+/// The newest question of a topic, with what may be shown until it is answered.
 #[derive(Debug)]
 pub struct Lane<S> {
     generation: u64,
     study: Option<S>,
+    /// Asked next, when the present study is finished.
+    waiting: Option<S>,
+    /// The last finished study before the present one.
+    before: Option<S>,
     redo: Vec<Piece>,
 }
 
 impl<S> Default for Lane<S> {
     fn default() -> Self {
-        Self { generation: 0, study: None, redo: Vec::new() }
+        Self { generation: 0, study: None, waiting: None, before: None, redo: Vec::new() }
     }
 }
 
-impl<S> Lane<S> {
-    /// Replaces the question: what is under way for the old one will be dropped. Returns the old study.
-    pub fn ask(&mut self, study: S) -> Option<S> {
+impl<S: Study> Lane<S> {
+    /// Replaces the question at once: what is under way for the old one will be dropped.
+    pub fn ask(&mut self, study: S) {
         self.generation += 1;
         self.redo.clear();
-        self.study.replace(study)
+        self.waiting = None;
+        if let Some(old) = self.study.replace(study).filter(Study::finished) {
+            self.before = Some(old);
+        }
     }
 
-    /// Drops question and findings.
-    pub fn cancel(&mut self) {
-        self.generation += 1;
-        self.redo.clear();
-        self.study = None;
+    /// Asks as soon as the present question is answered, instead of any question that waits: for questions that change
+    /// faster than they are answered.
+    pub fn offer(&mut self, study: S) {
+        if self.study.as_ref().is_none_or(Study::finished) {
+            self.ask(study);
+        } else {
+            self.waiting = Some(study);
+        }
     }
 
     /// Number of the newest question.
@@ -41,7 +51,7 @@ impl<S> Lane<S> {
         self.generation
     }
 
-    /// The newest study.
+    /// The newest study, finished or not.
     pub fn study(&self) -> Option<&S> {
         self.study.as_ref()
     }
@@ -49,6 +59,25 @@ impl<S> Lane<S> {
     /// The newest study, to change what it is asked.
     pub fn study_mut(&mut self) -> Option<&mut S> {
         self.study.as_mut()
+    }
+
+    /// The study asked for last: one that waits, or else the newest.
+    pub fn wanted(&self) -> Option<&S> {
+        self.waiting.as_ref().or(self.study.as_ref())
+    }
+
+    /// The newest finished study.
+    pub fn finished(&self) -> Option<&S> {
+        self.study.as_ref().filter(|study| study.finished()).or(self.before.as_ref())
+    }
+
+    /// Begins with the question that waits, once the present one is answered.
+    fn go_on(&mut self) {
+        if self.study.as_ref().is_none_or(Study::finished)
+            && let Some(next) = self.waiting.take()
+        {
+            self.ask(next);
+        }
     }
 }
 
@@ -93,6 +122,7 @@ impl<S: Study> Traffic for Lane<S> {
             && let Some(study) = &mut self.study
         {
             study.take(ticket, finding);
+            self.go_on();
         }
     }
 
@@ -136,11 +166,20 @@ impl Foreman {
         Self { busy: vec![None; workers], handed: 0 }
     }
 
-    /// The next piece for an idle worker, from the first of `lanes` that has one, and the number under which it is to
-    /// be returned.
-    pub fn assign(&mut self, worker: usize, lanes: &mut [&mut dyn Traffic]) -> Option<(u64, Work)> {
+    /// The next piece for an idle worker and the number under which it is to be returned: from the first of the
+    /// `urgent` lanes that has one, else from whichever other lane is least far.
+    pub fn assign(
+        &mut self,
+        worker: usize,
+        lanes: &mut [&mut dyn Traffic],
+        urgent: usize,
+    ) -> Option<(u64, Work)> {
         let slot = self.busy.get_mut(worker).filter(|slot| slot.is_none())?;
-        for (lane, traffic) in lanes.iter_mut().enumerate() {
+        let mut order: Vec<usize> = (0..lanes.len()).collect();
+        let done = |lane: &usize| lanes[*lane].progress().unwrap_or(1.0);
+        order[urgent.min(lanes.len())..].sort_by(|a, b| done(a).total_cmp(&done(b)));
+        for lane in order {
+            let traffic = &mut lanes[lane];
             if let Some(piece) = traffic.next() {
                 self.handed += 1;
                 let work = piece.work.clone();
@@ -240,7 +279,7 @@ mod tests {
         let mut foreman = Foreman::new(2);
         let mut deaths = 0;
         while lane.progress().is_some() {
-            let given: Vec<_> = (0..2).map(|worker| foreman.assign(worker, &mut [&mut lane])).collect();
+            let given: Vec<_> = (0..2).map(|worker| foreman.assign(worker, &mut [&mut lane], 1)).collect();
             for (worker, given) in given.into_iter().enumerate() {
                 match given {
                     Some(_) if worker == 1 && deaths == 0 => {
@@ -264,17 +303,35 @@ mod tests {
         let mut lane = Lane::default();
         lane.ask(Three::default());
         let mut foreman = Foreman::new(1);
-        let (old, _) = foreman.assign(0, &mut [&mut lane]).expect("work");
+        let (old, _) = foreman.assign(0, &mut [&mut lane], 1).expect("work");
         lane.ask(Three::default());
         assert_eq!(foreman.obsolete(&[&mut lane]).collect::<Vec<_>>(), vec![0]);
         foreman.returned(0, old, answer("old"), &mut [&mut lane]);
         assert!(lane.study().is_some_and(|study| study.found.is_empty()) && !foreman.is_busy(0));
         // A late second return of the same number changes nothing either.
-        let (new, _) = foreman.assign(0, &mut [&mut lane]).expect("work");
+        let (new, _) = foreman.assign(0, &mut [&mut lane], 1).expect("work");
         foreman.returned(0, old, answer("old"), &mut [&mut lane]);
         assert!(foreman.is_busy(0));
         foreman.returned(0, new, answer("new"), &mut [&mut lane]);
         assert_eq!(lane.study().map(|study| study.found.len()), Some(1));
+    }
+
+    #[test]
+    fn a_question_that_waits_begins_when_the_present_one_is_answered() {
+        let mut lane = Lane::default();
+        let mut foreman = Foreman::new(1);
+        lane.offer(Three::default());
+        for _ in 0..2 {
+            lane.offer(Three::default());
+        }
+        assert_eq!(lane.generation(), 1);
+        for _ in 0..3 {
+            let (number, _) = foreman.assign(0, &mut [&mut lane], 1).expect("work");
+            foreman.returned(0, number, answer(""), &mut [&mut lane]);
+        }
+        // The second of three was never begun.
+        assert_eq!((lane.generation(), lane.study().map(Study::progress)), (2, Some(0.0)));
+        assert_eq!(lane.finished().map(Study::progress), Some(1.0));
     }
 
     #[test]
@@ -283,10 +340,10 @@ mod tests {
         lane.ask(Three::default());
         let mut foreman = Foreman::new(1);
         for _ in 0..6 {
-            assert!(foreman.assign(0, &mut [&mut lane]).is_some());
+            assert!(foreman.assign(0, &mut [&mut lane], 1).is_some());
             foreman.died(0, &mut [&mut lane]);
         }
-        assert!(foreman.assign(0, &mut [&mut lane]).is_none());
+        assert!(foreman.assign(0, &mut [&mut lane], 1).is_none());
         let study = lane.study().expect("asked");
         assert!(study.finished() && study.found.iter().all(|(_, finding)| finding.is_err()));
     }
@@ -298,10 +355,21 @@ mod tests {
         urgent.ask(Three::default());
         let mut foreman = Foreman::new(4);
         for worker in 0..4 {
-            assert!(foreman.assign(worker, &mut [&mut urgent, &mut other]).is_some());
+            assert!(foreman.assign(worker, &mut [&mut urgent, &mut other], 1).is_some());
         }
         let left = |lane: &Lane<Three>| lane.study().map(|study| 3 - study.handed);
         assert_eq!((left(&urgent), left(&other)), (Some(0), Some(2)));
         assert_eq!(foreman.busy_count(), 4);
+    }
+
+    #[test]
+    fn of_the_others_the_one_that_is_least_far_goes_first() {
+        let (mut a, mut b) = (Lane::default(), Lane::default());
+        a.ask(Three { handed: 1, found: vec![(1, answer(""))] });
+        b.ask(Three::default());
+        let mut foreman = Foreman::new(1);
+        let (number, _) = foreman.assign(0, &mut [&mut a, &mut b], 0).expect("work");
+        assert_eq!(b.study().map(|study| study.handed), Some(1));
+        foreman.returned(0, number, answer(""), &mut [&mut a, &mut b]);
     }
 }

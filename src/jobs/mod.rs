@@ -3,6 +3,7 @@
 
 pub mod batch;
 pub mod foreman;
+pub mod inspection;
 pub mod motions;
 pub mod request;
 pub mod response;

@@ -2,12 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::inspection::{Inspection, inspect};
 use super::motions::MotionPlane;
 use super::response::{ResponseCurve, response};
+use crate::dynamics::curves::{Curve, Line, Start, bifurcations_along_line, trace_curve};
 use crate::dynamics::signature::Signature;
 use crate::dynamics::sweep::{Dwell, SweepPoint};
 use crate::dynamics::tongue::{Tongue, Window};
-use crate::dynamics::{largest_multipliers, trace_tongue};
+use crate::dynamics::{Plane, largest_multipliers, trace_tongue};
 use crate::model::Parameter;
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
@@ -68,6 +70,29 @@ pub enum Work {
         /// Its lowest and highest value.
         range: (f64, f64),
     },
+    /// The verdict on the motion that a scenario leads to.
+    Inspect {
+        /// Everything about it.
+        scenario: Scenario,
+    },
+    /// Bifurcations of the forced motion along a line across a plane of two parameters.
+    Line {
+        /// The device and its other numbers.
+        scenario: Scenario,
+        /// The window.
+        plane: Plane,
+        /// The line.
+        line: Line,
+    },
+    /// A curve of bifurcations.
+    Trace {
+        /// The device and its other numbers.
+        scenario: Scenario,
+        /// The window.
+        plane: Plane,
+        /// A point of it.
+        start: Start,
+    },
 }
 
 /// What a piece of work found.
@@ -91,6 +116,12 @@ pub enum Finding {
     Motions(Vec<Option<Signature>>),
     /// The branches found.
     Response(Vec<ResponseCurve>),
+    /// Verdict and evidence.
+    Inspection(Box<Inspection>),
+    /// The bifurcations on a line.
+    Starts(Vec<Start>),
+    /// A whole curve.
+    Curve(Box<Curve>),
 }
 
 /// Largest multipliers along a column of a chart, absent from where the forced motion cannot be followed.
@@ -134,6 +165,18 @@ impl Work {
             Self::Motions { plane, places } => plane.motions(places).map(Finding::Motions).map_err(sentence),
             Self::Response { scenario, parameter, range } => {
                 response(scenario, *parameter, *range).map(Finding::Response).map_err(sentence)
+            }
+            Self::Inspect { scenario } => {
+                inspect(scenario).map(|found| Finding::Inspection(Box::new(found))).map_err(sentence)
+            }
+            Self::Line { scenario, plane, line } => {
+                let (system, _) = scenario.validate().map_err(sentence)?;
+                bifurcations_along_line(&system, plane, *line, false).map(Finding::Starts).map_err(sentence)
+            }
+            Self::Trace { scenario, plane, start } => {
+                let (system, _) = scenario.validate().map_err(sentence)?;
+                let curve = trace_curve(&system, start, plane).map_err(sentence)?;
+                Ok(Finding::Curve(Box::new(curve)))
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Section 2 of the paper, in its order: device, parameters, magnet, modes, the reduced system.
 
 pub mod device;
+pub mod eigenvalues;
 pub mod energy;
 pub mod error;
 pub mod force;

@@ -62,6 +62,12 @@ impl ReducedSystem {
         Ok(Self { parameters, theta, ..self.clone() })
     }
 
+    /// Whether nothing takes energy out: no viscosity, and no load that feels the beam.
+    pub fn undamped(&self) -> bool {
+        let p = &self.parameters;
+        p.alpha == 0.0 && (p.theta == 0.0 || p.kappa == 0.0)
+    }
+
     /// Length 2N + 1 of the state.
     pub fn dimension(&self) -> usize {
         state_dimension(self.modes.len())

@@ -1,21 +1,14 @@
 //! Eigenvalues of the linear system of beam and circuit together.
 
-use nalgebra::{Complex, DMatrix, Schur};
+use nalgebra::{Complex, DMatrix};
 
 use super::{DynamicStiffness, TheoryError};
 use crate::model::ReducedSystem;
-
-/// Cap of the eigenvalue iteration; 17 x 17 matrices take about forty.
-const MAX_ITERATIONS: usize = 1000;
+use crate::model::eigenvalues::{self, MAX_ITERATIONS, SHIFTS};
 
 /// Relative size at which the iteration drops an entry: safely above its own rounding errors. What accuracy
 /// that leaves out, [`refined`] brings back.
 const DEFLATION: f64 = 1e-14;
-
-/// Diagonals, in units of the highest frequency, that are tried until the iteration converges. It judges an
-/// entry by the diagonal beside it, which vanishes without damping; moved along, the matrix has one to judge
-/// by.
-const SHIFTS: [f64; 3] = [1.37, 0.71, 2.93];
 
 /// The 2N + 1 eigenvalues of the linear system (the matrix A of Eq. (60) without its quadratic term),
 /// dimensionless: ascending in frequency, the upper of a conjugate pair first.
@@ -31,9 +24,7 @@ pub fn eigenvalues(system: &ReducedSystem) -> Result<Vec<Complex<f64>>, TheoryEr
         return Err(TheoryError::NotFinite);
     }
     let highest = system.modes.iter().last().map_or(1.0, |mode| mode.omega);
-    let raw = SHIFTS
-        .iter()
-        .find_map(|shift| shifted_eigenvalues(&matrix, shift * highest))
+    let raw = eigenvalues::eigenvalues(&matrix, SHIFTS.map(|shift| shift * highest), DEFLATION)
         .ok_or(TheoryError::NoConvergence { iterations: MAX_ITERATIONS })?;
     let stiffness = DynamicStiffness::new(system);
     let mut eigenvalues = Vec::with_capacity(raw.len());
@@ -46,16 +37,6 @@ pub fn eigenvalues(system: &ReducedSystem) -> Result<Vec<Complex<f64>>, TheoryEr
     }
     eigenvalues.sort_by(|a, b| a.im.abs().total_cmp(&b.im.abs()).then(b.im.total_cmp(&a.im)));
     Ok(eigenvalues)
-}
-
-/// Eigenvalues of `matrix`, computed on a diagonal moved by `shift`.
-fn shifted_eigenvalues(matrix: &DMatrix<f64>, shift: f64) -> Option<Vec<Complex<f64>>> {
-    let mut moved = matrix.clone();
-    for k in 0..moved.nrows() {
-        moved[(k, k)] += shift;
-    }
-    let schur = Schur::try_new(moved, DEFLATION, MAX_ITERATIONS)?;
-    Some(schur.complex_eigenvalues().iter().map(|value| value - shift).collect())
 }
 
 /// Newton's iteration on the characteristic polynomial, whose small roots a matrix with large entries blurs.

@@ -4,6 +4,7 @@ mod agreement;
 mod driver;
 mod page;
 mod server;
+mod stability;
 
 use std::{collections::BTreeSet, env, fs, io::Write as _, thread::sleep, time::Duration};
 
@@ -50,6 +51,8 @@ fn starts_below_a_sub_path_and_then_asks_for_nothing() {
 
     let refused: Vec<_> = page.files.log().iter().filter(|served| served.status != 200).cloned().collect();
     assert!(refused.is_empty(), "asked for what is not there: {refused:?}");
+    // The workers have loaded their scripts when they have answered.
+    page.wait_until("the verdict", |state| !state["verdict"].is_null());
     let loaded = page.files.log().len();
     drag_slider(&mut page, "Frequency", 0.4, 0.6, 10);
     sleep(Duration::from_millis(500));

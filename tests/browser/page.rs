@@ -73,6 +73,11 @@ impl Page {
         self.wait_ready();
     }
 
+    /// A script that runs in the page before its own, from the next load on.
+    pub(crate) fn before_each_load(&self, script: &str) {
+        self.browser.devtools("Page.addScriptToEvaluateOnNewDocument", &json!({ "source": script }));
+    }
+
     pub(crate) fn reload(&mut self) {
         self.browser.run(self.browser.client().refresh());
         self.wait_ready();

@@ -67,7 +67,7 @@ def response(x, k):
 def show(name, rows, columns):
     print(f"const {name}: [[f64; {columns}]; {len(rows)}] = [")
     for row in rows:
-        print("    [" + ", ".join(mp.nstr(entry, 17) for entry in row) + "],")
+        print("    [" + ", ".join(mp.nstr(entry, 15) for entry in row) + "],")
     print("];")
 
 

@@ -7,14 +7,14 @@ mod inline;
 mod studies;
 
 pub use inline::Inline;
-pub(super) use studies::Studies;
+pub(super) use studies::{Response, Studies};
 
 use super::clock::milliseconds;
 use crate::jobs::foreman::Foreman;
 use crate::jobs::work::{Finding, Work};
 
 /// A worker may go on with a piece that nobody waits for any more for this long; then it is replaced.
-const OBSOLETE_MS: f64 = 400.0;
+const OBSOLETE_MS: f64 = 2000.0;
 /// Longest time for a piece; a request asked from outside may take longer.
 const LONGEST_MS: f64 = 60_000.0;
 const LONGEST_ANSWER_MS: f64 = 3_600_000.0;
@@ -68,7 +68,7 @@ impl Crew {
             let in_background = !self.restrained || self.foreman.busy_count() == 0;
             let mut lanes = self.studies.lanes();
             let lanes = if in_background { &mut lanes[..] } else { &mut lanes[..Studies::URGENT] };
-            let Some((number, work)) = self.foreman.assign(worker, lanes) else { continue };
+            let Some((number, work)) = self.foreman.assign(worker, lanes, Studies::URGENT) else { continue };
             let longest = if matches!(work, Work::Answer { .. }) { LONGEST_ANSWER_MS } else { LONGEST_MS };
             self.begun[worker] = (milliseconds(), longest);
             self.workers.give(worker, number, &work);

@@ -6,12 +6,17 @@ use crate::app::session::Session;
 use crate::app::view::{Layer, Tab, View};
 use crate::dynamics::tongue::Window;
 use crate::jobs::foreman::{Lane, Traffic};
-use crate::jobs::study::Study as _;
+use crate::jobs::inspection::Inspection;
+use crate::jobs::response::ResponseCurve;
 use crate::jobs::study::answers::Answers;
-use crate::jobs::study::multiplier_chart::{MultiplierChart, MultiplierQuestion};
-use crate::jobs::study::response::{ResponseQuestion, ResponseStudy};
-use crate::jobs::study::sweep::{Direction, SweepQuestion, SweepStudy};
+use crate::jobs::study::basin::Basin;
+use crate::jobs::study::curves::CurvesStudy;
+use crate::jobs::study::motion_chart::MotionChart;
+use crate::jobs::study::multiplier_chart::MultiplierChart;
+use crate::jobs::study::single::Single;
+use crate::jobs::study::sweep::{Direction, SweepStudy};
 use crate::jobs::study::tongues::TongueStudy;
+use crate::jobs::work::{Finding, Work};
 use crate::scenario::Scenario;
 
 /// Half the width of the window in which exact tongues are traced: a little more than a map shows.
@@ -19,28 +24,36 @@ const TONGUE_SPAN: f64 = 0.8;
 /// Upper ends of that window: the lowest one above what the map shows is taken.
 const TONGUE_LIMITS: [f64; 2] = [0.04, 0.2];
 
-/// What exact tongues belong to: the device, and how far they were followed.
-#[derive(Debug, Clone, PartialEq)]
-struct Subject {
-    structure: Structure,
-    limit: f64,
-}
-
-/// The lanes, and what of them outlives a question.
+/// The lanes.
 pub(in crate::app) struct Studies {
     /// Requests from outside.
     pub answers: Lane<Answers>,
+    /// Verdict on the scenario in view.
+    inspection: Lane<Single>,
+    /// Exact tongues of the device in view.
     tongues: Lane<TongueStudy>,
-    /// What the newest tongues belong to.
-    subject: Option<Subject>,
-    /// The last finished tongues of another device: drawn faintly while the newest are traced.
-    before: Option<(Subject, TongueStudy)>,
-    /// Chart of the forced motion's stability.
-    pub multipliers: Lane<MultiplierChart>,
+    /// Response curves of the sweep in view.
+    response: Lane<Single>,
     /// Sweep up and down.
     pub sweep: Lane<SweepStudy>,
-    response: Lane<ResponseStudy>,
-    response_before: Option<ResponseStudy>,
+    /// Bifurcation curves in the plane in view.
+    pub curves: Lane<CurvesStudy>,
+    /// Chart of the forced motion's stability.
+    pub multipliers: Lane<MultiplierChart>,
+    /// Chart of the motions reached.
+    pub motions: Lane<MotionChart>,
+    /// Basins of attraction.
+    pub basin: Lane<Basin>,
+}
+
+/// Response curves to draw.
+pub(in crate::app) struct Response<'a> {
+    /// The question that they answer.
+    pub question: &'a Work,
+    /// The curves, or why there are none.
+    pub curves: Result<&'a [ResponseCurve], &'a str>,
+    /// Whether it is the newest question.
+    pub newest: bool,
 }
 
 impl Default for Studies {
@@ -49,40 +62,96 @@ impl Default for Studies {
         answers.ask(Answers::default());
         Self {
             answers,
+            inspection: Lane::default(),
             tongues: Lane::default(),
-            subject: None,
-            before: None,
-            multipliers: Lane::default(),
-            sweep: Lane::default(),
             response: Lane::default(),
-            response_before: None,
+            sweep: Lane::default(),
+            curves: Lane::default(),
+            multipliers: Lane::default(),
+            motions: Lane::default(),
+            basin: Lane::default(),
         }
     }
 }
 
 impl Studies {
     /// How many of the lanes are urgent: they are served also while the user's hand moves.
-    pub(super) const URGENT: usize = 2;
+    pub(super) const URGENT: usize = 3;
 
     /// All lanes, most urgent first.
-    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; 5] {
-        [&mut self.answers, &mut self.tongues, &mut self.response, &mut self.multipliers, &mut self.sweep]
+    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; 9] {
+        [
+            &mut self.answers,
+            &mut self.inspection,
+            &mut self.tongues,
+            &mut self.response,
+            &mut self.sweep,
+            &mut self.curves,
+            &mut self.multipliers,
+            &mut self.motions,
+            &mut self.basin,
+        ]
+    }
+
+    /// Names and done parts, 0 to 1, of what is under way.
+    pub(in crate::app) fn progress(&mut self) -> Vec<(&'static str, f64)> {
+        const NAMES: [&str; 9] = [
+            "answers",
+            "verdict",
+            "tongues",
+            "response",
+            "sweep",
+            "curves",
+            "multipliers",
+            "motions",
+            "basin",
+        ];
+        NAMES.iter().zip(self.lanes()).filter_map(|(name, lane)| Some((*name, lane.progress()?))).collect()
     }
 
     /// Asks for what the view shows.
     pub(in crate::app) fn follow(&mut self, view: &View, session: &Session) {
-        let beta = view.scenario.parameters.beta;
-        let ceiling = map::ceiling(view.map, beta);
+        let ceiling = map::ceiling(view.map, view.scenario.parameters.beta);
+        offer(&mut self.inspection, Work::Inspect { scenario: view.scenario.clone() });
         if view.scenario.model.modes > 1 {
             self.ask_tongues(&view.scenario, ceiling);
         }
         match (view.tab, &session.boundaries) {
             (Tab::Stability, Some(boundaries)) if view.layer == Layer::Multiplier => {
-                self.ask_multipliers(questions::chart(view, boundaries));
+                let question = questions::chart(view, boundaries);
+                if self.multipliers.study().is_none_or(|chart| *chart.question() != question) {
+                    self.multipliers.ask(MultiplierChart::new(question));
+                }
             }
-            (Tab::Sweep, _) => {
-                self.ask_sweep(questions::sweep(view, session));
-                self.ask_response(questions::response(view, session));
+            (Tab::Stability, Some(boundaries)) => {
+                let question = questions::motions(view, boundaries);
+                if self.motions.study().is_none_or(|chart| *chart.question() != question) {
+                    self.motions.ask(MotionChart::new(question));
+                }
+            }
+            _ => {}
+        }
+        match view.tab {
+            Tab::Stability => {
+                let question = questions::curves(view, session);
+                if let Some(question) = question
+                    && self.curves.study().is_none_or(|curves| *curves.question() != question)
+                {
+                    self.curves.ask(CurvesStudy::new(question));
+                }
+                if let Ok(question) = questions::basin(view)
+                    && self.basin.study().is_none_or(|basin| *basin.question() != question)
+                    && let Ok(basin) = Basin::new(question)
+                {
+                    self.basin.ask(basin);
+                }
+            }
+            Tab::Sweep => {
+                let question = questions::sweep(view, session);
+                if self.sweep.study().is_none_or(|sweep| *sweep.question() != question) {
+                    self.sweep.ask(SweepStudy::new(question, &[Direction::Up, Direction::Down]));
+                }
+                offer(&mut self.response, questions::response(view, session));
             }
             _ => {}
         }
@@ -91,56 +160,45 @@ impl Studies {
     /// Asks for the exact tongues of the device of `scenario` up to beta = `ceiling`, unless they were asked for last.
     fn ask_tongues(&mut self, scenario: &Scenario, ceiling: f64) {
         let limit = TONGUE_LIMITS.into_iter().find(|limit| *limit >= ceiling).unwrap_or(TONGUE_LIMITS[1]);
-        let subject = Subject { structure: Structure::of(scenario), limit };
-        if self.subject.as_ref() == Some(&subject) {
-            return;
-        }
         let window = Window { span: TONGUE_SPAN, limit };
-        let newest = self.tongues.ask(TongueStudy::new(scenario.clone(), window));
-        let old = self.subject.replace(subject);
-        if let Some(finished) = old.zip(newest).filter(|(_, study)| study.finished()) {
-            self.before = Some(finished);
+        let structure = Structure::of(scenario);
+        let same =
+            |study: &TongueStudy| study.window() == window && Structure::of(study.scenario()) == structure;
+        if !self.tongues.wanted().is_some_and(same) {
+            self.tongues.offer(TongueStudy::new(scenario.clone(), window));
         }
     }
 
-    /// The exact tongues to draw, and whether they belong to `structure`: until those are traced, the last ones that
-    /// were.
+    /// The newest exact tongues, and whether they belong to `structure`.
     pub(in crate::app) fn tongues(&self, structure: &Structure) -> Option<(&TongueStudy, bool)> {
-        let belongs = |subject: &Subject| subject.structure == *structure;
-        let newest = self.tongues.study().filter(|_| self.subject.as_ref().is_some_and(belongs));
-        match (newest, &self.before) {
-            (Some(newest), Some(_)) if newest.finished() => Some((newest, true)),
-            (Some(newest), None) => Some((newest, true)),
-            (_, Some((subject, study))) => Some((study, belongs(subject))),
-            (None, None) => None,
-        }
+        let study = self.tongues.finished().or(self.tongues.study())?;
+        Some((study, Structure::of(study.scenario()) == *structure))
     }
 
-    /// Asks for a chart, unless it was the last one asked for.
-    fn ask_multipliers(&mut self, question: MultiplierQuestion) {
-        if self.multipliers.study().is_none_or(|chart| *chart.question() != question) {
-            self.multipliers.ask(MultiplierChart::new(question));
-        }
+    /// The newest response curves.
+    pub(in crate::app) fn response(&self) -> Option<Response<'_>> {
+        let study = self.response.finished()?;
+        let curves = match study.found()? {
+            Ok(Finding::Response(curves)) => Ok(curves.as_slice()),
+            Ok(_) => return None,
+            Err(message) => Err(message.as_str()),
+        };
+        let newest = self.response.wanted().is_some_and(|wanted| wanted.work() == study.work());
+        Some(Response { question: study.work(), curves, newest })
     }
 
-    /// Asks for a sweep both ways, unless it was the last one asked for.
-    fn ask_sweep(&mut self, question: SweepQuestion) {
-        if self.sweep.study().is_none_or(|sweep| *sweep.question() != question) {
-            self.sweep.ask(SweepStudy::new(question, &[Direction::Up, Direction::Down]));
-        }
+    /// The newest verdict and its evidence, and whether it belongs to `scenario`.
+    pub(in crate::app) fn inspection(&self, scenario: &Scenario) -> Option<(&Inspection, bool)> {
+        let study = self.inspection.finished()?;
+        let Some(Ok(Finding::Inspection(found))) = study.found() else { return None };
+        let current = matches!(study.work(), Work::Inspect { scenario: of } if of == scenario);
+        Some((found, current))
     }
+}
 
-    /// Asks for response curves, unless they were asked for last; finished ones are kept until the new ones are there.
-    fn ask_response(&mut self, question: ResponseQuestion) {
-        if self.response.study().is_none_or(|response| *response.question() != question) {
-            let old = self.response.ask(ResponseStudy::new(question));
-            self.response_before = old.filter(ResponseStudy::finished).or(self.response_before.take());
-        }
-    }
-
-    /// The response curves to draw, and whether they are the newest.
-    pub(in crate::app) fn response(&self) -> Option<(&ResponseStudy, bool)> {
-        let newest = self.response.study().filter(|response| response.finished());
-        newest.map(|newest| (newest, true)).or(self.response_before.as_ref().map(|before| (before, false)))
+/// Asks for a piece of work, unless it was asked for last.
+fn offer(lane: &mut Lane<Single>, work: Work) {
+    if lane.wanted().is_none_or(|wanted| *wanted.work() != work) {
+        lane.offer(Single::new(work));
     }
 }

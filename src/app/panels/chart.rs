@@ -1,23 +1,33 @@
 //! The chart over (omega, beta): how stable the forced motion is, or which motion is reached, cell by cell.
 
-use egui::{Id, Ui};
+use egui::{Color32, Id, TextureHandle, Ui};
 use egui_plot::PlotBounds;
 
 use super::Context;
 use super::stability_map::{self, drag_point};
 use crate::app::command::Command;
 use crate::app::map::{Boundaries, ceiling};
+use crate::app::theme::{self, Tokens};
 use crate::app::view::{Layer, Panel};
+use crate::app::widgets::number::significant;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips, draw_raster, raster, swatches};
-use crate::app::{colours, theme};
+use crate::app::widgets::{Series, chips, colour_bar, draw_raster, raster, swatches};
+use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
+use crate::dynamics::motion::{Cell, Motion};
 use crate::jobs::study::Study as _;
+use crate::jobs::study::motion_chart::MotionChart;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.multipliers.study() {
-        Some(chart) if !chart.finished() => format!("computing {:.0} %", 100.0 * chart.progress()),
+    let progress = match context.view.layer {
+        Layer::Multiplier => {
+            context.studies.multipliers.study().map(|chart| (chart.progress(), chart.finished()))
+        }
+        _ => context.studies.motions.study().map(|chart| (chart.progress(), chart.finished())),
+    };
+    let hint = match progress {
+        Some((done, false)) => format!("computing {:.0} %", 100.0 * done),
         _ => "drag or click to move".to_owned(),
     };
     context.plot_card(ui, Panel::Chart, "Stability chart", &hint, |context, ui| {
@@ -44,18 +54,96 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         context.commands.push(Command::Chart(layer));
     }
     let tokens = theme::tokens(ui);
-    let stable = colours::multiplier(Some((0.999, 0.0)), tokens);
+    match context.view.layer {
+        Layer::Multiplier => multiplier_legend(ui, tokens),
+        Layer::Motion => motion_legend(ui, tokens),
+        layer @ (Layer::Voltage | Layer::Power) => {
+            let top = context.studies.motions.study().map_or(0.0, |chart| highest(chart, layer));
+            let (top, unit) =
+                if layer == Layer::Voltage { (top, "V rms") } else { (microwatts() * top, "µW") };
+            ui.horizontal(|ui| {
+                colour_bar(ui, "0", &format!("{} {unit}", significant(top, 3)), colours::sequential);
+            });
+        }
+    }
+}
+
+fn multiplier_legend(ui: &mut Ui, tokens: &Tokens) {
     let kind = |kind| colours::instability(kind, tokens);
-    swatches(
-        ui,
-        &[
-            (stable, "stable"),
-            (kind(Instability::PeriodDoubling), "period doubling"),
-            (kind(Instability::NeimarkSacker), "torus"),
-            (kind(Instability::Fold), "fold"),
-            (colours::multiplier(None, tokens), "no forced motion"),
-        ],
-    );
+    let entries = [
+        (colours::multiplier(Some((0.999, 0.0)), tokens), "stable"),
+        (kind(Instability::PeriodDoubling), "period doubling"),
+        (kind(Instability::NeimarkSacker), "torus"),
+        (kind(Instability::Fold), "fold"),
+        (colours::multiplier(None, tokens), "no forced motion"),
+    ];
+    swatches(ui, &entries);
+}
+
+fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
+    let colour = |motion| colours::motion(motion, tokens);
+    let entries = [
+        (colour(Motion::Periodic { periods: 1 }), "period 1"),
+        (colour(Motion::Periodic { periods: 2 }), "2"),
+        (colour(Motion::Periodic { periods: 3 }), "longer"),
+        (colour(Motion::Quasiperiodic), "torus"),
+        (colour(Motion::Chaotic), "chaotic"),
+        (colour(Motion::Escape { time: 0.0 }), "escape or contact"),
+    ];
+    swatches(ui, &entries);
+}
+
+/// The largest value of a chart, in the unit of its cells.
+fn highest(chart: &MotionChart, layer: Layer) -> f64 {
+    let (columns, rows) = chart.question().size;
+    let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+    let known = cells.filter_map(|(column, row)| chart.cell(column, row).flatten());
+    known.map(|cell| value(&cell, layer)).fold(0.0, f64::max)
+}
+
+fn value(cell: &Cell, layer: Layer) -> f64 {
+    if layer == Layer::Power { cell.power } else { cell.v_rms }
+}
+
+/// What is drawn under the curves.
+struct Picture {
+    texture: TextureHandle,
+    omega: (f64, f64),
+    beta: (f64, f64),
+    /// Whether any of it answers the newest question.
+    known: bool,
+}
+
+/// The picture of the layer in view.
+fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
+    let tokens = theme::tokens(ui);
+    let revision = |version: u64, generation: u64| {
+        version ^ (generation << 32) ^ ((layer as u64) << 60) ^ (u64::from(tokens.dark) << 63)
+    };
+    if layer == Layer::Multiplier {
+        let chart = context.studies.multipliers.study()?;
+        let question = chart.question();
+        let revision = revision(chart.version(), context.studies.multipliers.generation());
+        let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
+        let texture = raster(ui, Id::unique("multiplier chart"), revision, question.size, paint)?;
+        let known = chart.version() > 0;
+        return Some(Picture { texture, omega: question.omega, beta: question.beta, known });
+    }
+    let chart = context.studies.motions.study()?;
+    let question = chart.question();
+    let top = highest(chart, layer).max(f64::MIN_POSITIVE);
+    let colour = |cell: Cell| -> Color32 {
+        let ended = matches!(cell.motion, Motion::Escape { .. } | Motion::Contact { .. });
+        if layer == Layer::Motion || ended {
+            colours::motion(cell.motion, tokens)
+        } else {
+            colours::sequential(value(&cell, layer) / top)
+        }
+    };
+    let paint = |column, row| chart.shown(column, row).map(|cell| cell.map_or(tokens.inset, colour));
+    let revision = revision(chart.version(), context.studies.motions.generation());
+    let texture = raster(ui, Id::unique("motion chart"), revision, question.size, paint)?;
+    Some(Picture { texture, omega: question.x.1, beta: question.y.1, known: chart.version() > 0 })
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
@@ -63,14 +151,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let window = context.view.map;
     let (low, high) = boundaries.range(window);
     let ceiling = ceiling(window, p.beta);
-    let tokens = theme::tokens(ui);
-    let chart = context.studies.multipliers.study();
-    let picture = chart.and_then(|chart| {
-        let revision =
-            chart.version() ^ (context.studies.multipliers.generation() << 32) ^ u64::from(tokens.dark) << 63;
-        let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
-        raster(ui, Id::unique("multiplier chart"), revision, chart.question().size, paint)
-    });
+    let picture = picture(context, ui, context.view.layer);
     let (x, y) = (Axis::new("excitation frequency", "ω"), Axis::new("excitation amplitude", "β"));
     let (exact, current) = stability_map::exact_borders(context, boundaries);
     let shown = plot_style::plot(ui, ("chart", window), &x, &y)
@@ -80,9 +161,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         .allow_double_click_reset(false)
         .show(ui, |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
-            if let (Some(picture), Some(chart)) = (&picture, chart) {
-                let opacity = if chart.version() == 0 { 0.5 } else { 1.0 };
-                draw_raster(plot, picture, chart.question().omega, chart.question().beta, opacity);
+            if let Some(Picture { texture, omega, beta, known }) = &picture {
+                draw_raster(plot, texture, *omega, *beta, if *known { 1.0 } else { 0.5 });
             }
             for tongue in &boundaries.tongues {
                 plot_style::series(plot, Series::Published, "published boundary", &tongue.published);

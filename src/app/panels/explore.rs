@@ -3,8 +3,8 @@
 use egui::{Ui, vec2};
 
 use super::{
-    Context, chart, multipliers, orbit_diagram, phase_portrait, poincare_map, response, stability_map,
-    time_history, verdict,
+    Context, basins, chart, curves, evidence, multipliers, orbit_diagram, phase_portrait, poincare_map,
+    response, spectrum, stability_map, time_history, verdict,
 };
 use crate::app::view::Panel;
 
@@ -70,5 +70,9 @@ fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
         Panel::Multipliers => multipliers::show(context, ui),
         Panel::OrbitDiagram => orbit_diagram::show(context, ui),
         Panel::Response => response::show(context, ui),
+        Panel::Curves => curves::show(context, ui),
+        Panel::Spectrum => spectrum::show(context, ui),
+        Panel::Evidence => evidence::show(context, ui),
+        Panel::Basins => basins::show(context, ui),
     }
 }

@@ -3,7 +3,7 @@
 use egui::Ui;
 use egui_plot::PlotPoint;
 
-use super::{Context, phase_portrait};
+use super::{Context, phase_plane};
 use crate::app::figures::Figure;
 use crate::app::session::Shown;
 use crate::app::widgets::plot_style::{self, Axis};
@@ -91,9 +91,8 @@ fn history(ui: &mut Ui, figure: &Figure, shown: &Shown, [from, to]: [f64; 2], th
 }
 
 fn phase(ui: &mut Ui, figure: &Figure, shown: &Shown) {
-    let (x, y) = phase_portrait::axes();
     let curves = &shown.curves;
-    plot_style::plot(ui, ("figure phase", figure.number), &x, &y).allow_scroll(false).show(ui, |plot| {
+    phase_plane::plot(ui, ("figure phase", figure.number)).allow_scroll(false).show(ui, |plot| {
         plot_style::series(plot, Series::Numeric, "computed", &curves.phase);
         if figure.number != 12 {
             plot_style::points(plot, Series::Theory, "first-order theory", &curves.theory_phase);
@@ -102,19 +101,15 @@ fn phase(ui: &mut Ui, figure: &Figure, shown: &Shown) {
 }
 
 fn strobe(ui: &mut Ui, figure: &Figure, shown: &Shown) {
-    let (x, y) = phase_portrait::axes();
     let curves = &shown.curves;
-    let [width, height] = curves.extent;
-    plot_style::plot(ui, ("figure map", figure.number), &x, &y)
-        .allow_scroll(false)
-        .include_x(-1.05 * width)
-        .include_x(1.05 * width)
-        .include_y(-1.05 * height)
-        .include_y(1.05 * height)
-        .show(ui, |plot| {
-            plot_style::points(plot, Series::Poincare, "computed", &curves.strobe);
+    phase_plane::plot_around(ui, ("figure map", figure.number), curves.extent).allow_scroll(false).show(
+        ui,
+        |plot| {
             if let Some(point) = &curves.theory_strobe {
-                plot_style::points(plot, Series::Theory, "first-order theory", std::slice::from_ref(point));
+                let place = std::slice::from_ref(point);
+                plot_style::points(plot, Series::TheoryPoint, "first-order theory", place);
             }
-        });
+            plot_style::points(plot, Series::Poincare, "computed", &curves.strobe);
+        },
+    );
 }

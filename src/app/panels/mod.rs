@@ -1,17 +1,22 @@
 //! The panels, one file each. They read the view and the session and push commands.
 
+pub(super) mod basins;
 pub(super) mod beam;
 pub(super) mod chart;
 pub(super) mod controls;
+pub(super) mod curves;
+pub(super) mod evidence;
 pub(super) mod explore;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
 pub(super) mod multipliers;
 pub(super) mod orbit_diagram;
 pub(super) mod paper;
+mod phase_plane;
 pub(super) mod phase_portrait;
 pub(super) mod poincare_map;
 pub(super) mod response;
+pub(super) mod spectrum;
 pub(super) mod stability;
 pub(super) mod stability_map;
 pub(super) mod structure;

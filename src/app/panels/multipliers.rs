@@ -1,11 +1,85 @@
 //! The Floquet multipliers and the unit circle.
 
+use std::f64::consts::TAU;
+
 use egui::Ui;
+use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
+use crate::app::theme;
 use crate::app::view::Panel;
+use crate::app::widgets::number::significant;
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Series, legend};
+use crate::jobs::inspection::Multipliers;
+
+/// Points of the circle.
+const CIRCLE: usize = 181;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    context.plot_card(ui, Panel::Multipliers, "Floquet multipliers", "", |_, _| ());
+    let hint = "inside the circle: stable";
+    context.plot_card(ui, Panel::Multipliers, "Floquet multipliers", hint, plot);
+}
+
+fn plot(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some((found, current)) = context.studies.inspection(&context.view.scenario) else { return };
+    if !current {
+        ui.multiply_opacity(0.55);
+    }
+    // A motion of period 1 that is the forced one is drawn once.
+    let reached = found.reached.as_ref().filter(|reached| found.forced.as_ref() != Some(*reached));
+    let reached = reached.filter(|reached| !same(reached, found.forced.as_ref()));
+    let name = reached.map(|reached| format!("period {} reached", reached.periods));
+    let mut entries = vec![(Series::Forced, "forced motion")];
+    entries.extend(name.as_deref().map(|name| (Series::Up, name)));
+    legend::legend(ui, &entries);
+    if let Some(forced) = &found.forced {
+        ui.label(egui::RichText::new(in_words(forced)).small().color(theme::tokens(ui).text_weak));
+    }
+    let circle: Vec<PlotPoint> = (0..CIRCLE)
+        .map(|i| TAU * i as f64 / (CIRCLE - 1) as f64)
+        .map(|angle| PlotPoint::new(angle.cos(), angle.sin()))
+        .collect();
+    let places = |found: Option<&Multipliers>| -> Vec<PlotPoint> {
+        found
+            .map_or_else(Vec::new, |found| found.values.iter().map(|[x, y]| PlotPoint::new(*x, *y)).collect())
+    };
+    let (forced, reached) = (places(found.forced.as_ref()), places(reached));
+    let all = forced.iter().chain(&reached);
+    let farthest = all.map(|place| place.x.hypot(place.y)).fold(1.0, f64::max);
+    let reach = 1.18 * farthest.min(4.0);
+    let (x, y) = (Axis::new("", "Re μ"), Axis::new("", "Im μ"));
+    plot_style::plot(ui, "multipliers", &x, &y).data_aspect(1.0).allow_drag(false).allow_scroll(false).show(
+        ui,
+        |plot| {
+            plot.set_plot_bounds(PlotBounds::from_min_max([-reach, -reach], [reach, reach]));
+            plot_style::series(plot, Series::Ghost, "unit circle", &circle);
+            plot_style::points(plot, Series::Forced, "forced motion", &forced);
+            plot_style::points(plot, Series::Up, "motion reached", &reached);
+        },
+    );
+}
+
+fn same(a: &Multipliers, b: Option<&Multipliers>) -> bool {
+    let close = |x: &[f64; 2], y: &[f64; 2]| (x[0] - y[0]).hypot(x[1] - y[1]) < 1e-6;
+    b.is_some_and(|b| a.periods == b.periods && a.values.iter().zip(&b.values).all(|(x, y)| close(x, y)))
+}
+
+/// The largest multiplier with what it means.
+fn in_words(forced: &Multipliers) -> String {
+    let Some([re, im]) = forced.values.first() else { return String::new() };
+    let modulus = re.hypot(*im);
+    let value = if *im == 0.0 {
+        format!("μ = {}", significant(*re, 5))
+    } else {
+        format!("μ = {} ± {} i", significant(*re, 4), significant(im.abs(), 4))
+    };
+    let meaning = match (modulus < 1.0, *im == 0.0, *re < 0.0) {
+        (true, ..) => "stable",
+        (false, false, _) => "unstable: a torus grows",
+        (false, true, true) => "unstable: every second period repeats, the period doubles",
+        (false, true, false) => "unstable: it is left in one direction",
+    };
+    format!("forced motion: largest {value}, |μ| = {} · {meaning}", significant(modulus, 5))
 }

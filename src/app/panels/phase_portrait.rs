@@ -2,16 +2,10 @@
 
 use egui::Ui;
 
-use super::Context;
+use super::{Context, phase_plane};
 use crate::app::view::Panel;
-use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, legend};
+use crate::app::widgets::{Series, legend, plot_style};
 use crate::model::state_dimension;
-
-/// The axes that phase portrait and Poincare map share.
-pub(super) fn axes() -> (Axis, Axis) {
-    (Axis::new("voltage", "v").unit("V"), Axis::new("", "dv/dt"))
-}
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -21,25 +15,18 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 fn portrait(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(shown) = context.shown() else { return };
     let curves = &shown.curves;
-    let (x, y) = axes();
     legend::legend(
         ui,
         &[(Series::Numeric, "computed"), (Series::Ghost, "start"), (Series::Theory, "first-order theory")],
     );
-    let [width, height] = curves.extent;
-    let response = plot_style::plot(ui, "phase portrait", &x, &y)
-        .include_x(-1.05 * width)
-        .include_x(1.05 * width)
-        .include_y(-1.05 * height)
-        .include_y(1.05 * height)
-        .show(ui, |plot| {
-            if let Some(pinned) = &context.session.pinned {
-                plot_style::series(plot, Series::Ghost, "pinned", &pinned.curves.phase);
-            }
-            plot_style::series(plot, Series::Ghost, "start of the motion", &curves.transient);
-            plot_style::series(plot, Series::Numeric, "computed", &curves.phase);
-            plot_style::points(plot, Series::Theory, "first-order theory", &curves.theory_phase);
-        });
+    let response = phase_plane::plot_around(ui, "phase portrait", curves.extent).show(ui, |plot| {
+        if let Some(pinned) = &context.session.pinned {
+            plot_style::series(plot, Series::Ghost, "pinned", &pinned.curves.phase);
+        }
+        plot_style::series(plot, Series::Ghost, "start of the motion", &curves.transient);
+        plot_style::series(plot, Series::Numeric, "computed", &curves.phase);
+        plot_style::points(plot, Series::Theory, "first-order theory", &curves.theory_phase);
+    });
     if let Some(at) = response.response.clicked().then(|| response.response.interact_pointer_pos()).flatten()
     {
         let place = response.transform.value_from_position(at);

@@ -4,6 +4,7 @@ use egui::Ui;
 use egui_plot::{PlotPoint, VLine};
 
 use super::{Context, orbit_diagram, sweep};
+use crate::app::crew::Response;
 use crate::app::theme;
 use crate::app::view::{Output, Panel};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -12,12 +13,13 @@ use crate::dynamics::Instability;
 use crate::dynamics::sweep::SweepPoint;
 use crate::jobs::response::{ResponseCurve, ResponsePoint};
 use crate::jobs::study::sweep::{Direction, SweepStudy};
+use crate::jobs::work::Work;
 use crate::model::{Device, ParameterSet, ReducedSystem};
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.response() {
-        Some((_, true)) => "solid: stable, dashed: unstable",
+        Some(Response { newest: true, .. }) => "solid: stable, dashed: unstable",
         _ => "following the branches",
     };
     context.plot_card(ui, Panel::Response, "Response curves", hint, curves);
@@ -33,11 +35,7 @@ struct Measure {
 
 impl Measure {
     fn new(output: Output, system: &ReducedSystem) -> Self {
-        // V^2 / R over kappa v^2, the same for every load.
-        let kappa = ParameterSet::default().kappa;
-        let resistance = Device::default().resistance_of(kappa);
-        let microwatts = resistance.map_or(0.0, |resistance| 1e6 / (resistance * kappa));
-        Self { output, microwatts, gap: system.equilibrium.gap }
+        Self { output, microwatts: microwatts(), gap: system.equilibrium.gap }
     }
 
     fn axis(&self) -> Axis {
@@ -62,6 +60,13 @@ impl Measure {
     }
 }
 
+/// Microwatts of a dimensionless power of 1: V^2 / R over kappa v^2, the same for every load.
+pub(super) fn microwatts() -> f64 {
+    let kappa = ParameterSet::default().kappa;
+    let resistance = Device::default().resistance_of(kappa);
+    resistance.map_or(0.0, |resistance| 1e6 / (resistance * kappa))
+}
+
 fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(study) = context.studies.sweep.study() else { return };
     let Some(shown) = context.shown() else { return };
@@ -75,22 +80,21 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
             (Series::Unstable, "unstable"),
         ],
     );
-    let found = context.studies.response();
-    if let Some((response, true)) = found
-        && let Some(Err(message)) = response.found()
-    {
-        ui.label(egui::RichText::new(message).small().color(theme::tokens(ui).warning));
-    }
-    let matching = found.filter(|(response, _)| response.question().parameter == study.question().parameter);
-    let branches = match matching.and_then(|(response, _)| response.found()) {
-        Some(Ok(curves)) => curves.as_slice(),
-        _ => &[],
+    let swept = study.question().parameter;
+    let matching = |work: &Work| matches!(work, Work::Response { parameter, .. } if *parameter == swept);
+    let found = context.studies.response().filter(|response| matching(response.question));
+    let (branches, current): (&[ResponseCurve], bool) = match found {
+        Some(Response { curves: Ok(curves), newest, .. }) => (curves, newest),
+        Some(Response { curves: Err(message), newest: true, .. }) => {
+            ui.label(egui::RichText::new(message).small().color(theme::tokens(ui).warning));
+            (&[], true)
+        }
+        _ => (&[], false),
     };
     let lines: Vec<(Series, String, Vec<PlotPoint>)> =
         branches.iter().flat_map(|curve| lines(curve, &measure)).collect();
     let marks: Vec<(String, [f64; 2])> = branches.iter().flat_map(|curve| marks(curve, &measure)).collect();
     let ways = [Direction::Up, Direction::Down].map(|direction| reached(study, direction, &measure));
-    let current = matching.is_some_and(|(_, current)| current);
     let (name, symbol) = sweep::title(study.question().parameter);
     let (x, y) = (Axis::new(name, symbol), measure.axis());
     let range = study.question().range;
@@ -109,7 +113,7 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
             plot_style::points(plot, Series::Down, "downwards", &ways[1]);
             plot_style::points(plot, Series::Up, "upwards", &ways[0]);
             for (name, place) in &marks {
-                plot_style::labelled_place(plot, name, *place, Series::Stable);
+                plot_style::special_point(plot, name, (*place).into());
             }
         });
     orbit_diagram::go_where_clicked(context, &response, study);

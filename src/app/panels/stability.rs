@@ -9,5 +9,9 @@ use crate::app::view::Panel;
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
     ui.add_space(explore::GAP);
-    explore::cards(context, ui, &[Panel::Chart, Panel::Multipliers]);
+    explore::cards(
+        context,
+        ui,
+        &[Panel::Chart, Panel::Multipliers, Panel::Curves, Panel::Basins, Panel::Spectrum, Panel::Evidence],
+    );
 }

@@ -15,7 +15,9 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Status::Failed(message) => Some(message),
         _ => None,
     };
-    let reading = Reading::new(shown, context.session.boundaries.as_ref());
+    let found = context.studies.inspection(&shown.scenario);
+    let verdict = found.filter(|(_, current)| *current).map(|(found, _)| &found.verdict);
+    let reading = Reading::new(shown, context.session.boundaries.as_ref(), verdict);
     let colour = match (failure.is_some(), reading.tone) {
         (true, _) | (_, Tone::Alarming) => tokens.danger,
         (_, Tone::Notable) => tokens.warning,

@@ -21,6 +21,14 @@ pub enum Series {
     Exact,
     /// Poincaré points.
     Poincare,
+    /// Boundary of a torus: dashes.
+    Torus,
+    /// Curve of folds: fine dots.
+    Fold,
+    /// A single point of the theory: a ring around what it predicts.
+    TheoryPoint,
+    /// Multipliers of the forced motion: large discs.
+    Forced,
     /// Reached by a sweep upwards: small discs.
     Up,
     /// Reached by a sweep downwards: small rings.
@@ -53,11 +61,14 @@ impl Series {
     pub fn colour(self, tokens: &Tokens) -> Color32 {
         match self {
             Self::Numeric => tokens.numeric,
-            Self::Theory => tokens.theory,
+            Self::Theory | Self::TheoryPoint => tokens.theory,
             Self::Published => tokens.published,
             Self::Coupled => tokens.coupled,
             Self::Exact => tokens.exact,
             Self::Poincare => tokens.poincare,
+            Self::Torus => tokens.poincare,
+            Self::Fold => tokens.warning,
+            Self::Forced => tokens.exact,
             Self::Up => tokens.numeric,
             Self::Down => tokens.warning,
             Self::Stable | Self::Unstable => tokens.ok,
@@ -74,6 +85,10 @@ impl Series {
             Self::Coupled => Pen::Dashes(1.8, 9.0),
             Self::Exact => Pen::Line(3.0),
             Self::Poincare => Pen::Points(3.5),
+            Self::Torus => Pen::Line(2.2),
+            Self::Fold => Pen::Dashes(2.0, 12.0),
+            Self::TheoryPoint => Pen::Rings(6.0),
+            Self::Forced => Pen::Points(4.5),
             Self::Up => Pen::Points(2.6),
             Self::Down => Pen::Rings(3.2),
             Self::Stable => Pen::Line(2.4),

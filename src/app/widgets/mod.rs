@@ -24,5 +24,5 @@ pub use icon::{Icon, icon_button};
 pub use legend::{Series, legend_entry};
 pub use parameter_slider::{Mark, ParameterSlider, SliderResponse};
 pub use raster::{draw_raster, raster};
-pub use swatch::{colour_bar, swatches};
+pub use swatch::{attractor_row, colour_bar, swatches};
 pub use tabs::{chips, tabs};

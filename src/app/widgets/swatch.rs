@@ -57,3 +57,34 @@ pub fn colour_bar(ui: &mut Ui, low: &str, high: &str, colour: impl Fn(f64) -> Co
     ui.painter().add(Shape::mesh(mesh));
     ui.label(text(high));
 }
+
+/// A row that can be clicked: a coloured square, a name, and a quiet number at the right.
+pub fn attractor_row(ui: &mut Ui, colour: Color32, name: &str, number: &str) -> Response {
+    let tokens = theme::tokens(ui);
+    let size = vec2(ui.available_width(), 24.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let enabled = ui.is_enabled();
+    response.widget_info(|| {
+        WidgetInfo::labeled(egui::Role::Button, enabled, format!("Start on {name}, {number}"))
+    });
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, theme::radius::CONTROL, tokens.hover);
+    }
+    let middle = rect.center().y;
+    let square = egui::Rect::from_center_size(pos2(rect.left() + 10.0, middle), vec2(SIDE, SIDE));
+    ui.painter().rect_filled(square, 3, colour);
+    let font = fonts::regular(theme::size::SMALL);
+    let number = ui.painter().text(
+        pos2(rect.right() - 4.0, middle),
+        egui::Align2::RIGHT_CENTER,
+        number,
+        font.clone(),
+        tokens.text_weak,
+    );
+    let mut job = egui::text::LayoutJob::simple_singleline(name.to_owned(), font, tokens.text);
+    let left = square.right() + 6.0;
+    job.wrap = egui::text::TextWrapping::truncate_at_width((number.left() - 6.0 - left).max(10.0));
+    let galley = ui.painter().layout_job(job);
+    ui.painter().galley(pos2(left, middle - 0.5 * galley.size().y), galley, tokens.text);
+    response.on_hover_cursor(egui::CursorIcon::PointingHand)
+}

@@ -12,6 +12,8 @@ use crate::dynamics::{Instability, OrbitError};
 const LOCATED: f64 = 1e-10;
 /// Length of a cusp's heading over that of the station before, beyond which the curve only turned.
 const STANDSTILL: f64 = 1e-2;
+/// Value of a test at a located zero over those beside it, beyond which it jumped.
+const VANISHED: f64 = 1e-2;
 /// Beyond this cosine of its angle a pair is real to the accuracy of a located point.
 const REAL: f64 = 1.0 - 1e-8;
 
@@ -96,7 +98,9 @@ impl Tracer<'_> {
             if ends || (value < 0.0) == (test(next, kind) < 0.0) {
                 continue;
             }
+            let largest = value.abs().max(test(next, kind).abs());
             if let Ok(station) = self.between(here, next, |station| test(station, kind))
+                && test(&station, kind).abs() < VANISHED * largest
                 && here.condition.confirms(kind, &station.multipliers)
             {
                 found.push((kind, station));
@@ -111,7 +115,7 @@ impl Tracer<'_> {
                 found.push((SpecialKind::Cusp, station));
             }
         }
-        let ahead = |station: &Station| (&station.place - &here.place).dot(&here.course.tangent);
+        let ahead = |station: &Station| (&station.place - &here.place).dot(&here.direction.tangent);
         found.sort_by(|a, b| ahead(&a.1).total_cmp(&ahead(&b.1)));
         found
     }

@@ -121,6 +121,9 @@ pub fn bifurcations_along_line(
             }
         }
         let crossed = branch.points.last().is_some_and(|point| point.value == to);
+        if system.undamped() {
+            starts.retain(|start: &Start| start.kind != Instability::NeimarkSacker);
+        }
         if crossed || !upwards {
             return Ok(starts);
         }
@@ -208,11 +211,7 @@ fn branch_from(
     axis: Axis,
     upwards: bool,
 ) -> Result<(ReducedSystem, Branch), OrbitError> {
-    let mut set = *system.parameters;
-    for (axis, value) in plane.axes().iter().zip(at) {
-        *axis.parameter.get_mut(&mut set) = axis.accepted(value);
-    }
-    let system = system.with_numbers(set)?;
+    let system = plane.system(system, at)?;
     let state = forced_state(&system)?;
     let branch = follow_branch(&system, &state, &course(axis, upwards))?;
     Ok((system, branch))

@@ -17,8 +17,6 @@ use crate::model::{Parameter, ReducedSystem};
 const MAX_ITERATIONS: usize = 10;
 /// A correction below this is the last one.
 const SETTLED: f64 = 1e-9;
-/// Smallest component of a plane's vector along a parameter that a step of the difference quotient is scaled by.
-const STEEP: f64 = 0.1;
 /// Smallest sine of the angle in the tangent plane between the curve and the line on which the held parameter is
 /// constant for points to be corrected along that line.
 const TRANSVERSAL: f64 = 0.1;
@@ -32,7 +30,7 @@ pub(super) struct Surface {
 
 /// The curve at a place: its direction and what corrections start from.
 #[derive(Debug, Clone)]
-pub(super) struct Course {
+pub(super) struct Direction {
     /// Unit tangent.
     pub(super) tangent: DVector<f64>,
     /// Gradient of the condition within the surface.
@@ -49,19 +47,17 @@ impl Surface {
     }
 
     /// The curve's direction at `place`, on which its solver is, on the side of `like`.
-    pub(super) fn course(
+    pub(super) fn direction(
         &mut self,
         place: &DVector<f64>,
         condition: Condition,
         like: Option<&DVector<f64>>,
-    ) -> Result<Course, OrbitError> {
+    ) -> Result<Direction, OrbitError> {
         let here = self.value(condition)?;
         let (_, derivative) = self.family.linearised(place, true)?;
         let (level, across) = self.tangent_plane(&derivative)?;
-        let slopes = [
-            self.slope(place, &level, condition, here, 1 - self.held)?,
-            self.slope(place, &across, condition, here, self.held)?,
-        ];
+        let slopes =
+            [self.slope(place, &level, condition, here)?, self.slope(place, &across, condition, here)?];
         let gradient = &level * slopes[0] + &across * slopes[1];
         let mut tangent = (&across * slopes[0] - &level * slopes[1]).normalize();
         if tangent.iter().any(|value| !value.is_finite()) {
@@ -77,7 +73,7 @@ impl Surface {
             normal.fill(0.0);
             normal[n + self.held] = 1.0;
         }
-        Ok(Course { tangent, gradient, normal })
+        Ok(Direction { tangent, gradient, normal })
     }
 
     /// The point of the curve near `guess` in the hyperplane through it with the `normal`, corrected from what is
@@ -87,7 +83,7 @@ impl Surface {
         guess: &DVector<f64>,
         normal: &DVector<f64>,
         condition: Condition,
-        from: &Course,
+        from: &Direction,
     ) -> Result<DVector<f64>, OrbitError> {
         let n = self.family.dimension();
         let unit = from.gradient.norm();
@@ -161,29 +157,15 @@ impl Surface {
         if finite { Ok((level, across)) } else { Err(OrbitError::Singular) }
     }
 
-    /// Derivative of the condition, `here` at `place`, along a unit `vector` of the tangent plane, by a difference in
-    /// which parameter `k` moves by the step of the family's own quotients, where its map is prepared.
+    /// Derivative of the condition, `here` at `place`, along a unit `vector` of the tangent plane.
     fn slope(
         &mut self,
         place: &DVector<f64>,
         vector: &DVector<f64>,
         condition: Condition,
         here: f64,
-        k: usize,
     ) -> Result<f64, OrbitError> {
-        let index = self.family.dimension() + k;
-        let difference = self.family.difference(place, k);
-        let steep = vector[index].abs() > STEEP;
-        let mut step = if steep { difference / vector[index] } else { difference };
-        let mut moved = place + vector * step;
-        if steep {
-            moved[index] = place[index] + difference;
-        }
-        if !self.family.accepts(&moved) {
-            step = -step;
-            moved = place + vector * step;
-        }
-        self.family.defect(&moved)?;
+        let step = self.family.step_along(place, vector)?;
         Ok((self.value(condition)? - here) / step)
     }
 }

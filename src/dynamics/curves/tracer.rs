@@ -5,9 +5,12 @@
 //! Bifurcations of Dynamical Equilibria". The curve passes its own folds in either parameter and those of the surface
 //! of orbits. Points are good to about 1e-9 of the window.
 //!
-//! Where it stops working: two points of the same codimension-two kind within one step (a fiftieth of the window) are
-//! both overlooked; without any damping at all (alpha = kappa = theta = 0) every pair is on the circle and there are
-//! no Neimark-Sacker curves to trace.
+//! Where it stops working: two points of the same codimension-two kind within one step (a thirtieth of the window) are
+//! both overlooked. Where a second multiplier stays near the critical one along the curve, their resonance is located
+//! as well as the multipliers are known, to about 1e-6 of the window. A tip whose radius is below about 1e-6 of the
+//! window ends the curve: narrow the window, or start on its other side. Without any damping
+//! ([`ReducedSystem::undamped`]) there are no Neimark-Sacker curves, points of codimension two are not looked for, and
+//! a tongue reaches beta = 0 in a corner, where the trace of its flank ends.
 
 use nalgebra::DVector;
 
@@ -16,12 +19,13 @@ use super::curve::{Curve, CurveEnd, CurvePoint, SpecialPoint, Start};
 use super::locate::KNOWN;
 use super::station::Station;
 use super::surface::Surface;
-use crate::dynamics::OrbitError;
+use crate::dynamics::arclength::DIFFERENCE;
 use crate::dynamics::plane::Plane;
-use crate::model::ReducedSystem;
+use crate::dynamics::{Instability, OrbitError};
+use crate::model::{ModelError, ReducedSystem};
 
 /// First, shortest and longest step, in units of the gap and of the window.
-const STEPS: (f64, f64, f64) = (1e-3, 1e-6, 0.15);
+const STEPS: (f64, f64, f64) = (1e-3, 1e-8, 0.15);
 /// Longest step in the plane, in units of the window.
 const PLANE_STEP: f64 = 0.03;
 /// Turn of the tangent in one step that is aimed at, and the largest (radians).
@@ -39,28 +43,31 @@ const SAME: f64 = 1e-6;
 /// two parameters, is that of `system`.
 ///
 /// # Errors
-/// [`OrbitError`] when there is no such bifurcation near the start, or no device. Once begun, a curve that is lost
-/// is an answer, [`CurveEnd::Lost`].
+/// [`OrbitError`] when the start is outside the plane, there is no such bifurcation near it, or no device. Once begun,
+/// a curve that is lost is an answer, [`CurveEnd::Lost`].
 pub fn trace_curve(system: &ReducedSystem, start: &Start, plane: &Plane) -> Result<Curve, OrbitError> {
-    let mut set = *system.parameters;
     for (axis, value) in plane.axes().iter().zip(start.at) {
-        *axis.parameter.get_mut(&mut set) = axis.accepted(value);
+        ModelError::check(axis.parameter.field(), value, axis.range, "")?;
     }
-    let system = system.with_numbers(set)?;
+    let system = plane.system(system, start.at)?;
+    let undamped = system.undamped();
+    if undamped && start.kind == Instability::NeimarkSacker {
+        return Err(OrbitError::Undamped);
+    }
     let mut surface = Surface::new(&system, plane, start.periods)?;
     let place = surface.family.place(&start.state, start.at);
     surface.family.defect(&place)?;
     let multipliers = surface.family.solver.multipliers()?;
     let condition = Condition::at(start.kind, &multipliers).ok_or(OrbitError::Multipliers)?;
-    let near = surface.course(&place, condition, None)?;
+    let near = surface.direction(&place, condition, None)?;
     let place = surface.correct(&place, &near.tangent, condition, &near)?;
     let origin = Station::read(&mut surface, place, condition, None)?;
-    let mut tracer = Tracer { surface, plane };
-    let back = tracer.side(origin.clone().reversed())?;
+    let mut tracer = Tracer { surface, plane, undamped };
+    let back = tracer.side(origin.clone().reversed());
     let middle = origin.point(&tracer.surface);
     let forth = match back.end {
         CurveEnd::Closed => Side { points: Vec::new(), special: Vec::new(), end: CurveEnd::Closed },
-        _ => tracer.side(origin)?,
+        _ => tracer.side(origin),
     };
     let before = back.points.len();
     let mut special: Vec<SpecialPoint> = Vec::new();
@@ -98,11 +105,13 @@ struct Side {
 pub(super) struct Tracer<'a> {
     pub(super) surface: Surface,
     pub(super) plane: &'a Plane,
+    /// Then multipliers are reciprocal in pairs, and the tests of codimension two vanish everywhere.
+    undamped: bool,
 }
 
 impl Tracer<'_> {
     /// The part of the curve ahead of `origin`.
-    fn side(&mut self, origin: Station) -> Result<Side, OrbitError> {
+    fn side(&mut self, origin: Station) -> Side {
         let mut side = Side { points: Vec::new(), special: Vec::new(), end: CurveEnd::Points };
         let mut here = origin.clone();
         let mut past: Vec<Station> = Vec::new();
@@ -113,6 +122,10 @@ impl Tracer<'_> {
                     step *= 0.5;
                     continue;
                 }
+                Err(_) if self.at_border(here.at()) => {
+                    side.end = CurveEnd::Window;
+                    break;
+                }
                 Err(reason) => {
                     let reason = self.obstacle(&here).unwrap_or(reason).to_string();
                     side.end = CurveEnd::Lost { reason };
@@ -122,16 +135,24 @@ impl Tracer<'_> {
             };
             let after = side.points.len() + 1;
             let end = match self.halved(&past, &here) {
-                None => self.terminal(&here, &next)?,
-                half => half,
+                None => self.terminal(&here, &next),
+                half => Ok(half),
             };
-            if let Some((special, station)) = end {
-                side.special.push(station.special(&self.surface, special, after));
-                side.points.push(station.point(&self.surface));
-                side.end = CurveEnd::Meeting { special };
-                break;
+            match end {
+                Ok(None) => {}
+                Ok(Some((special, station))) => {
+                    side.special.push(station.special(&self.surface, special, after));
+                    side.points.push(station.point(&self.surface));
+                    side.end = CurveEnd::Meeting { special };
+                    break;
+                }
+                Err(reason) => {
+                    side.end = CurveEnd::Lost { reason: reason.to_string() };
+                    break;
+                }
             }
-            for (kind, station) in self.specials(&here, &next) {
+            let special = if self.undamped { Vec::new() } else { self.specials(&here, &next) };
+            for (kind, station) in special {
                 side.special.push(station.special(&self.surface, kind, after));
             }
             if after > 2 && self.returns(&origin, &here, &next) {
@@ -144,7 +165,7 @@ impl Tracer<'_> {
                 side.end = CurveEnd::Window;
                 break;
             }
-            let turn = here.course.tangent.dot(&next.course.tangent).clamp(-1.0, 1.0).acos();
+            let turn = here.direction.tangent.dot(&next.direction.tangent).clamp(-1.0, 1.0).acos();
             let [a, b] = next.heading();
             let longest = (PLANE_STEP / a.hypot(b)).min(STEPS.2);
             step = (step * (TURN.0 / turn.max(1e-3)).clamp(0.5, 1.6)).clamp(STEPS.1, longest);
@@ -153,7 +174,7 @@ impl Tracer<'_> {
                 past.remove(0);
             }
         }
-        Ok(side)
+        side
     }
 
     /// The station a `step` on, and whether it is on the window's border.
@@ -166,11 +187,13 @@ impl Tracer<'_> {
         before: Option<&Station>,
         step: f64,
     ) -> Result<(Station, bool), OrbitError> {
+        // Short enough for the bend of the curve; no shorter than that needs, for the errors of the map.
+        self.surface.family.difference = (DIFFERENCE * step / STEPS.0).clamp(0.1 * DIFFERENCE, DIFFERENCE);
         let mut guess = here.predict(before, step);
         let mut border = self.first_border(here.at(), self.surface.family.values(&guess));
         let mut next = None;
         if border.is_none() {
-            let station = self.land(here, &guess, &here.course.normal)?;
+            let station = self.land(here, &guess, &here.direction.normal)?;
             border = self.first_border(here.at(), station.at());
             next = border.is_none().then_some(station);
         }
@@ -190,11 +213,21 @@ impl Tracer<'_> {
             }
         };
         let moved = (&next.place - &guess).norm();
-        let straight = here.course.tangent.dot(&next.course.tangent) > TURN.1.cos();
+        let straight = here.direction.tangent.dot(&next.direction.tangent) > TURN.1.cos();
         if straight && moved <= DOUBTFUL * step {
             return Ok((next, reached));
         }
         Err(OrbitError::Sharp)
+    }
+
+    /// Whether a point is as good as on the window's border: at the last, orbits may be of another kind, as those
+    /// without a load are.
+    fn at_border(&self, at: [f64; 2]) -> bool {
+        (0..2).any(|k| {
+            let axis = self.plane.axes()[k];
+            let (low, high) = axis.range;
+            (at[k] - low).min(high - at[k]) < SAME * axis.width()
+        })
     }
 
     /// Why there is no device beside `here`, if there is none: towards such a border the orbits change so fast that
@@ -218,7 +251,7 @@ impl Tracer<'_> {
         guess: &DVector<f64>,
         normal: &DVector<f64>,
     ) -> Result<Station, OrbitError> {
-        let place = self.surface.correct(guess, normal, from.condition, &from.course)?;
+        let place = self.surface.correct(guess, normal, from.condition, &from.direction)?;
         Station::read(&mut self.surface, place, from.condition, Some(from))
     }
 
@@ -237,7 +270,7 @@ impl Tracer<'_> {
 
     /// Whether the step between two stations passes the `origin` again, in its direction.
     fn returns(&mut self, origin: &Station, here: &Station, next: &Station) -> bool {
-        let ahead = |station: &Station| (&station.place - &origin.place).dot(&origin.course.tangent);
+        let ahead = |station: &Station| (&station.place - &origin.place).dot(&origin.direction.tangent);
         let length = (&next.place - &here.place).norm();
         let near = (&next.place - &origin.place).norm() <= 2.0 * length;
         if !(near && ahead(here) < 0.0 && ahead(next) >= 0.0) {
@@ -245,7 +278,7 @@ impl Tracer<'_> {
         }
         let fraction = ahead(here) / (ahead(here) - ahead(next));
         let guess = super::station::cubic(here, next, fraction);
-        let found = self.surface.correct(&guess, &origin.course.tangent, here.condition, &here.course);
+        let found = self.surface.correct(&guess, &origin.direction.tangent, here.condition, &here.direction);
         found.is_ok_and(|place| (place - &origin.place).amax() < 1e2 * SAME)
     }
 }

@@ -5,10 +5,11 @@ use super::work::{Finding, Work};
 
 pub mod answers;
 pub mod basin;
+pub mod curves;
 pub mod mosaic;
 pub mod motion_chart;
 pub mod multiplier_chart;
-pub mod response;
+pub mod single;
 pub mod sweep;
 pub mod tongues;
 

@@ -33,6 +33,16 @@ impl TongueStudy {
         Self { scenario, window, handed: 0, traced: Default::default() }
     }
 
+    /// The device.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// How far they are followed.
+    pub fn window(&self) -> Window {
+        self.window
+    }
+
     /// What is known of the tongue of `resonance`.
     pub fn tongue(&self, resonance: Resonance) -> &Traced {
         let index = Resonance::ALL.iter().position(|other| *other == resonance);

@@ -26,6 +26,8 @@ pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [
     let (radius, opacity) = match (kind, places.len()) {
         (Series::Ghost, 0..=40) => (3.0, 0.6),
         (Series::Ghost, _) => (1.2, 0.5),
+        (Series::TheoryPoint, _) => (7.0, 1.0),
+        (Series::Down, _) => (2.6, 0.8),
         (_, 0..=40) => (5.0, 1.0),
         (_, 41..=400) => (2.6, 0.9),
         _ => (1.5, 0.75),
@@ -83,6 +85,16 @@ pub fn labelled_place(plot: &mut PlotUi<'_>, text: &str, place: [f64; 2], kind: 
     let colour = if kind == Series::Ghost { tokens.text_weak } else { kind.colour(tokens) };
     let rich = egui::RichText::new(text).font(fonts::regular(theme::size::SMALL + 0.5)).color(colour);
     plot.text(Text::new("", place.into(), rich).color(colour).allow_hover(false));
+}
+
+/// A place of its own, with its name beside it.
+pub fn special_point(plot: &mut PlotUi<'_>, name: &str, place: PlotPoint) {
+    let tokens = theme::tokens_in(plot.ctx());
+    let mark = Points::new(name, vec![[place.x, place.y]]).radius(5.0).color(tokens.text_strong);
+    plot.points(mark.shape(egui_plot::MarkerShape::Diamond));
+    let rich = egui::RichText::new(format!("  {name}")).font(fonts::regular(theme::size::SMALL + 0.5));
+    let text = Text::new("", place, rich.color(tokens.text_strong)).color(tokens.text_strong);
+    plot.text(text.anchor(egui::Align2::LEFT_BOTTOM).allow_hover(false));
 }
 
 /// The stretches of a curve without points that are not finite.

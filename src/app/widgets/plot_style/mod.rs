@@ -12,7 +12,7 @@ use super::number;
 use crate::app::{fonts, theme};
 
 pub use axis::{Axis, from_log, to_log};
-pub use items::{area_above, cell, envelope, finite_runs, labelled_place, points, series};
+pub use items::{area_above, cell, envelope, finite_runs, labelled_place, points, series, special_point};
 pub use marker::{PointDrag, no_data, operating_point};
 
 /// A plot with the app's look: transparent on its card, round ticks, axis names with units, values under the

@@ -1,0 +1,129 @@
+//! Which motion each start leads to, in the plane of the first mode's displacement and velocity.
+
+use egui::{Color32, Id, RichText, Ui};
+use egui_plot::{PlotBounds, PlotPoint};
+
+use super::Context;
+use crate::app::theme::{self, Tokens};
+use crate::app::view::Panel;
+use crate::app::widgets::number::{round_significant, significant};
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{attractor_row, draw_raster, raster};
+use crate::dynamics::motion::Motion;
+use crate::jobs::study::Study as _;
+use crate::jobs::study::basin::{Attractor, Basin};
+use crate::scenario::Scenario;
+
+/// Attractors that are listed.
+const LISTED: usize = 6;
+/// Width from which the list stands beside the plot.
+const BESIDE: f32 = 400.0;
+const LIST_WIDTH: f32 = 190.0;
+
+/// Draws the card.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = match context.studies.basin.study() {
+        Some(basin) if !basin.finished() => format!("computing {:.0} %", 100.0 * basin.progress()),
+        _ => "click to start there".to_owned(),
+    };
+    context.plot_card(ui, Panel::Basins, "Basins of attraction", &hint, |context, ui| {
+        let Some(basin) = context.studies.basin.study() else { return };
+        let attractors = basin.attractors();
+        if ui.available_width() < BESIDE {
+            list(context, ui, &attractors);
+            plot(context, ui, basin, &attractors);
+            return;
+        }
+        let area = ui.available_rect_before_wrap();
+        let (left, right) = area.split_left_right_at_x(area.right() - LIST_WIDTH);
+        ui.scope_builder(egui::UiBuilder::new().max_rect(left), |ui| plot(context, ui, basin, &attractors));
+        let right = right.shrink2(egui::vec2(8.0, 0.0));
+        ui.scope_builder(egui::UiBuilder::new().max_rect(right), |ui| list(context, ui, &attractors));
+    });
+}
+
+/// The colour of an attractor: by what it is where that has a colour of its own, else by the order of its finding.
+fn colour(attractor: &Attractor, tokens: &Tokens) -> Color32 {
+    let others = [tokens.numeric, tokens.warning, tokens.ok, tokens.exact, tokens.poincare];
+    match attractor.cell.motion {
+        Motion::Escape { .. } | Motion::Contact { .. } => tokens.track,
+        Motion::Undecided { .. } => tokens.ghost,
+        _ => others[attractor.number % others.len()],
+    }
+}
+
+/// The attractors found, most frequent first; a click starts on one.
+fn list(context: &mut Context<'_>, ui: &mut Ui, attractors: &[Attractor]) {
+    let tokens = theme::tokens(ui);
+    ui.label(RichText::new("share of the starts").small().color(tokens.text_weak));
+    for attractor in attractors.iter().take(LISTED) {
+        let share = format!("{} %", significant(100.0 * attractor.fraction, 3));
+        let name = match attractor.cell.motion {
+            Motion::Escape { .. } => "escape".to_owned(),
+            Motion::Contact { .. } => "contact".to_owned(),
+            Motion::Undecided { .. } => "undecided".to_owned(),
+            motion => format!("{motion}, {} V", significant(attractor.cell.v_rms, 3)),
+        };
+        if attractor_row(ui, colour(attractor, tokens), &name, &share).clicked() {
+            let start = attractor.start.clone();
+            context.edit(|scenario| scenario.initial = Some(start));
+        }
+    }
+    if let Some(more) = attractors.len().checked_sub(LISTED).filter(|more| *more > 0) {
+        ui.label(RichText::new(format!("and {more} more")).small().color(tokens.text_weak));
+    }
+}
+
+fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Attractor]) {
+    let tokens = theme::tokens(ui);
+    let question = basin.question();
+    let lane = context.studies.basin.generation();
+    let revision = basin.chart().version() ^ (lane << 32) ^ u64::from(tokens.dark) << 63;
+    let picture = raster(ui, Id::unique("basins"), revision, question.size, |column, row| {
+        let cell = basin.shown(column, row)?;
+        let attractor = cell.and_then(|index| attractors.get(index));
+        Some(attractor.map_or(tokens.inset, |attractor| colour(attractor, tokens).gamma_multiply(0.8)))
+    });
+    let (x, y) = (Axis::new("start", "q₁"), Axis::new("", "dq₁/dt"));
+    let start = start(&context.view.scenario);
+    let here = [start[question.x.0], start[question.y.0]];
+    let shown = plot_style::plot(ui, "basins", &x, &y)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_double_click_reset(false)
+        .show(ui, |plot| {
+            let (x, y) = (question.x.1, question.y.1);
+            plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
+            if let Some(picture) = &picture {
+                let opacity = if basin.chart().version() == 0 { 0.4 } else { 1.0 };
+                draw_raster(plot, picture, x, y, opacity);
+            }
+            let places: Vec<(String, PlotPoint)> = attractors
+                .iter()
+                .filter(|attractor| matches!(attractor.cell.motion, Motion::Periodic { .. }))
+                .map(|attractor| {
+                    let place = PlotPoint::new(attractor.start[question.x.0], attractor.start[question.y.0]);
+                    (attractor.cell.motion.to_string(), place)
+                })
+                .collect();
+            for (name, place) in &places {
+                plot_style::special_point(plot, name, *place);
+            }
+        });
+    let drag = plot_style::operating_point(ui, &shown, "Start", here);
+    if let Some([q, rate]) = drag.moved {
+        let (i, j) = (question.x.0, question.y.0);
+        context.edit(|scenario| {
+            let mut state = start.clone();
+            (state[i], state[j]) = (round_significant(q, 4), round_significant(rate, 4));
+            scenario.initial = Some(state);
+        });
+    }
+}
+
+/// The start of a scenario, length 2N + 1.
+fn start(scenario: &Scenario) -> Vec<f64> {
+    let dimension = crate::model::state_dimension(scenario.model.modes);
+    scenario.initial.clone().filter(|state| state.len() == dimension).unwrap_or_else(|| vec![0.0; dimension])
+}

@@ -1,0 +1,122 @@
+//! Curves of bifurcations of the forced motion in the plane of any two parameters, with the points where they meet.
+
+use egui::Ui;
+use egui_plot::{PlotBounds, PlotPoint};
+
+use super::{Context, sweep};
+use crate::app::command::Command;
+use crate::app::view::Panel;
+use crate::app::widgets::number::round_significant;
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Series, chips};
+use crate::app::{colours, questions, theme};
+use crate::dynamics::Instability;
+use crate::jobs::study::Study as _;
+use crate::jobs::study::curves::PARAMETERS;
+use crate::model::Parameter;
+
+/// Draws the card.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = match context.studies.curves.study() {
+        Some(study) if !study.finished() => format!("tracing, {} so far", study.curves().len()),
+        Some(study) if study.curves().is_empty() => "no bifurcations in this window".to_owned(),
+        Some(study) => format!("{} curves", study.curves().len()),
+        None => String::new(),
+    };
+    context.plot_card(ui, Panel::Curves, "Bifurcation curves", &hint, |context, ui| {
+        header(context, ui);
+        plot(context, ui);
+    });
+}
+
+fn header(context: &mut Context<'_>, ui: &mut Ui) {
+    let [mut x, mut y] = context.view.plane;
+    let before = [x, y];
+    let choices = PARAMETERS.map(|parameter| (parameter, sweep::title(parameter).1));
+    let weak = theme::tokens(ui).text_weak;
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        ui.label(egui::RichText::new("across").small().color(weak));
+        chips(ui, "Horizontal parameter", &mut x, &choices);
+        ui.label(egui::RichText::new("up").small().color(weak));
+        chips(ui, "Vertical parameter", &mut y, &choices);
+    });
+    if x == y {
+        // The other axis takes what this one had.
+        if x == before[0] { x = before[1] } else { y = before[0] }
+    }
+    if [x, y] != before {
+        context.commands.push(Command::OpenPlane([x, y]));
+    }
+    let tokens = theme::tokens(ui);
+    let kind = |kind| colours::instability(kind, tokens);
+    crate::app::widgets::swatches(
+        ui,
+        &[
+            (kind(Instability::PeriodDoubling), "period doubling"),
+            (kind(Instability::NeimarkSacker), "Neimark–Sacker (torus)"),
+            (kind(Instability::Fold), "fold"),
+            (tokens.text_strong, "where they meet"),
+        ],
+    );
+}
+
+fn plot(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(question) = questions::curves(context.view, context.session) else { return };
+    let [x_axis, y_axis] = *question.plane.axes();
+    let titled = |parameter: Parameter| {
+        let (name, symbol) = sweep::title(parameter);
+        Axis::new(name, symbol)
+    };
+    let (x, y) = (titled(x_axis.parameter), titled(y_axis.parameter));
+    let study = context.studies.curves.study().filter(|study| study.question().plane == question.plane);
+    let current = study.is_some_and(|study| *study.question() == question);
+    let curves = study.map_or(&[][..], |study| study.curves());
+    let lines: Vec<(Instability, String, Vec<PlotPoint>)> = curves
+        .iter()
+        .map(|curve| {
+            let line = curve.points.iter().map(|point| PlotPoint::new(point.at[0], point.at[1])).collect();
+            (curve.kind, colours::name(curve.kind).to_owned(), line)
+        })
+        .collect();
+    let special: Vec<(String, PlotPoint)> = curves
+        .iter()
+        .flat_map(|curve| &curve.special)
+        .map(|point| (point.kind.to_string(), PlotPoint::new(point.at[0], point.at[1])))
+        .collect();
+    let shown = plot_style::plot(ui, ("curves", context.view.plane.map(|parameter| parameter as u8)), &x, &y)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_double_click_reset(false)
+        .show(ui, |plot| {
+            let (low, high) = ([x_axis.range.0, y_axis.range.0], [x_axis.range.1, y_axis.range.1]);
+            plot.set_plot_bounds(PlotBounds::from_min_max(low, high));
+            for (kind, name, line) in &lines {
+                plot_style::series(plot, series(*kind, current), name, line);
+            }
+            for (name, place) in &special {
+                plot_style::special_point(plot, name, *place);
+            }
+        });
+    let parameters = context.view.scenario.parameters;
+    let here = [x_axis.parameter.get(&parameters), y_axis.parameter.get(&parameters)];
+    let drag = plot_style::operating_point(ui, &shown, "Operating point in this plane", here);
+    if let Some(moved) = drag.moved {
+        context.edit(|scenario| {
+            for (axis, value) in [x_axis, y_axis].iter().zip(moved) {
+                let value = value.clamp(axis.range.0, axis.range.1);
+                *axis.parameter.get_mut(&mut scenario.parameters) = round_significant(value, 5);
+            }
+        });
+    }
+}
+
+const fn series(kind: Instability, current: bool) -> Series {
+    match kind {
+        _ if !current => Series::Ghost,
+        Instability::PeriodDoubling => Series::Exact,
+        Instability::NeimarkSacker => Series::Torus,
+        Instability::Fold => Series::Fold,
+    }
+}

@@ -1,0 +1,69 @@
+//! What the verdict rests on, piece by piece.
+
+use egui::{RichText, Ui};
+
+use super::Context;
+use crate::app::view::Panel;
+use crate::app::{fonts, theme};
+use crate::dynamics::evidence::Source;
+
+/// Draws the card.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = "multipliers, recurrence, exponent, spectrum";
+    context.plot_card(ui, Panel::Evidence, "What the verdict rests on", hint, |context, ui| {
+        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| list(context, ui));
+    });
+}
+
+fn list(context: &mut Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let Some((found, current)) = context.studies.inspection(&context.view.scenario) else { return };
+    if !current {
+        ui.multiply_opacity(0.55);
+    }
+    let verdict = &found.verdict;
+    ui.spacing_mut().item_spacing.y = 6.0;
+    for piece in &verdict.rests_on {
+        let (sign, colour) = match piece.agrees {
+            Some(true) => ("agrees", tokens.ok),
+            Some(false) => ("contradicts", tokens.danger),
+            None => ("open", tokens.text_weak),
+        };
+        row(ui, title(piece.source), sign, colour, strip(&piece.says));
+    }
+    for other in &verdict.coexists {
+        row(ui, "Coexisting motion", "", tokens.warning, &other.to_string());
+    }
+    for warning in &verdict.warnings {
+        row(ui, "Note", "", tokens.warning, &warning.to_string());
+    }
+}
+
+fn row(ui: &mut Ui, title: &str, sign: &str, colour: egui::Color32, text: &str) {
+    let tokens = theme::tokens(ui);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 8.0;
+        let font = fonts::semibold(theme::size::SMALL + 1.0);
+        ui.label(RichText::new(title).font(font).color(colour));
+        if !sign.is_empty() {
+            ui.label(RichText::new(sign).small().color(colour));
+        }
+        ui.label(RichText::new(text).small().color(tokens.text));
+    });
+}
+
+const fn title(source: Source) -> &'static str {
+    match source {
+        Source::Run => "Run",
+        Source::Multipliers => "Multipliers",
+        Source::Recurrence => "Recurrence",
+        Source::Points => "Poincaré points",
+        Source::Exponent => "Lyapunov exponent",
+        Source::Spectrum => "Spectrum",
+    }
+}
+
+/// The text without the name of its source before the colon.
+fn strip(says: &str) -> &str {
+    says.split_once(": ").filter(|(name, _)| !name.contains(' ')).map_or(says, |(_, rest)| rest)
+}

@@ -1,0 +1,20 @@
+//! The plane of voltage and rate, which phase portraits and Poincaré maps share.
+
+use egui::Ui;
+use egui_plot::Plot;
+
+use crate::app::widgets::plot_style::{self, Axis};
+
+/// Free space around the motion, as a factor.
+const ROOM: f64 = 1.05;
+
+/// A plot with the plane's axes.
+pub(super) fn plot<'a>(ui: &Ui, id: impl egui::AsIdSalt) -> Plot<'a> {
+    plot_style::plot(ui, id, &Axis::new("voltage", "v").unit("V"), &Axis::new("", "dv/dt"))
+}
+
+/// The same with bounds that hold a motion of the given extent in both directions, also where less is drawn.
+pub(super) fn plot_around<'a>(ui: &Ui, id: impl egui::AsIdSalt, extent: [f64; 2]) -> Plot<'a> {
+    let [width, height] = extent.map(|largest| ROOM * largest);
+    plot(ui, id).include_x(-width).include_x(width).include_y(-height).include_y(height)
+}

@@ -1,0 +1,140 @@
+//! What the workers do for the page: boundaries, charts, verdicts; at their own pace, and through the death of one.
+
+use std::{thread::sleep, time::Duration};
+
+use serde_json::{Value, json};
+
+use crate::page::{Page, Theme};
+
+/// Opens a tab.
+fn open_tab(page: &mut Page, name: &str) {
+    let tab = page.find(name, &["Tab"]);
+    page.click(tab.at(0.5, 0.5));
+}
+
+/// Milliseconds by the page's own clock.
+fn now(page: &Page) -> f64 {
+    page.script("return performance.now()").as_f64().expect("a time")
+}
+
+/// Done part of what is under way in a lane; `None` when nothing is.
+fn progress(state: &Value, lane: &str) -> Option<f64> {
+    let lanes = state["progress"].as_array().into_iter().flatten();
+    lanes.clone().find(|entry| entry[0] == lane).and_then(|entry| entry[1].as_f64())
+}
+
+/// Loads a scenario and waits until `lane` has something to do and then has done it; the milliseconds that took.
+fn time_to_finish(page: &mut Page, scenario: &Value, lane: &str) -> f64 {
+    let begin = now(page);
+    page.call("load", &scenario.to_string()).expect("a scenario");
+    page.wait_until("the work to begin and end", |state| {
+        state["view"]["scenario"]["parameters"]["alpha"] == scenario["parameters"]["alpha"]
+            && state["status"] == "done"
+            && progress(state, lane).is_none()
+    });
+    now(page) - begin
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn boundaries_and_charts_are_there_soon() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    page.wait_until("the first verdict", |state| !state["verdict"].is_null());
+    for alpha in [1.01e-4, 1e-3] {
+        let scenario = json!({ "parameters": { "alpha": alpha, "beta": 0.01, "omega": 8.0969 } });
+        let took = time_to_finish(&mut page, &scenario, "tongues");
+        println!("three exact tongues at alpha = {alpha}: {took:.0} ms");
+    }
+    open_tab(&mut page, "Stability");
+    page.wait_until("the chart to begin", |state| progress(state, "multipliers").is_some());
+    page.wait_until("the chart to end", |state| progress(state, "multipliers").is_none());
+    let begin = now(&page);
+    let scenario = json!({ "parameters": { "alpha": 2e-4, "beta": 0.01, "omega": 8.0969 } });
+    page.call("load", &scenario.to_string()).expect("a scenario");
+    page.wait_until("the first picture", |state| {
+        progress(state, "multipliers").is_some_and(|done| done > 0.0)
+    });
+    println!("chart of 256 x 256 multipliers: first columns after {:.0} ms", now(&page) - begin);
+    page.wait_until("the chart to end", |state| progress(state, "multipliers").is_none());
+    println!("chart of 256 x 256 multipliers: complete after {:.0} ms", now(&page) - begin);
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn the_point_can_be_dragged_while_a_chart_is_computed() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    open_tab(&mut page, "Stability");
+    page.wait_until("the chart to begin", |state| progress(state, "multipliers").is_some());
+    let point = page.find("Operating point", &["Button"]);
+    sleep(Duration::from_secs(2));
+    // A new device: the chart begins again while the hand moves.
+    let scenario = json!({ "parameters": { "alpha": 3e-4, "beta": 0.01, "omega": 8.0969 } });
+    page.call("load", &scenario.to_string()).expect("a scenario");
+    let count = |page: &Page| page.frames()["count"].as_u64().unwrap_or_default() as usize;
+    let before = count(&page);
+    let (x, y) = point.at(0.5, 0.5);
+    let path: Vec<(f64, f64)> = (0..=150)
+        .map(|i| f64::from(i) / 25.0)
+        .map(|t| (x + 60.0 * t.sin(), y - 20.0 * (1.7 * t).sin()))
+        .collect();
+    page.drag(&path, Duration::from_millis(10));
+    let drawn = count(&page) - before;
+    let frames = page.frames();
+    let times = frames["cpu_ms"].as_array().into_iter().flatten().rev().take(drawn);
+    let mut times: Vec<f64> = times.filter_map(Value::as_f64).collect();
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| times[((times.len() - 1) as f64 * share).round() as usize];
+    println!(
+        "frames while a chart is computed, {} frames: p50 {:.2} ms, p95 {:.2} ms, max {:.2} ms",
+        times.len(),
+        at(0.5),
+        at(0.95),
+        at(1.0)
+    );
+    page.wait_until("the chart to end", |state| progress(state, "multipliers").is_none());
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn a_worker_that_dies_is_replaced_and_its_work_done() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    // Keeps hold of the page's workers from the next load on.
+    let spy = "window.hired = []; \
+               window.Worker = class extends Worker { constructor(...a) { super(...a); window.hired.push(this); } };";
+    page.before_each_load(spy);
+    page.reload();
+    page.wait_until("the first verdict", |state| !state["verdict"].is_null());
+    open_tab(&mut page, "Stability");
+    page.wait_until("the chart to begin", |state| progress(state, "multipliers").is_some());
+    let hired = page.script("return window.hired.length").as_u64().expect("a number");
+    assert!(hired >= 2, "{hired} workers");
+    page.script("for (const worker of [...window.hired]) { worker.terminate(); worker.dispatchEvent(new ErrorEvent('error')); }");
+    page.wait_until("the chart to end", |state| progress(state, "multipliers").is_none());
+    let later = page.script("return window.hired.length").as_u64().expect("a number");
+    assert_eq!(later, 2 * hired);
+    let answer = page.call("solve", r#"{"task":"modes"}"#).expect("an answer");
+    assert!(answer.as_str().is_some_and(|text| text.contains("A_e")), "{answer}");
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn the_verdict_of_figure_4_knows_of_the_other_motion() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    let scenario = json!({ "parameters": { "alpha": 1e-4, "beta": 0.01, "omega": 25.4047 }, "t_end": 605 });
+    page.call("load", &scenario.to_string()).expect("a scenario");
+    let state = page.wait_until("the verdict", |state| {
+        state["verdict"]["motion"]["kind"].is_string()
+            && state["status"] == "done"
+            && state["view"]["scenario"]["parameters"]["omega"] == 25.4047
+    });
+    let verdict = &state["verdict"];
+    assert_eq!(verdict["motion"]["kind"], "quasiperiodic", "{verdict}");
+    // An independent program's multiplier of the small forced motion.
+    let modulus = verdict["forced"]["multiplier"]["modulus"].as_f64().expect("a modulus");
+    assert!((modulus - 0.999378).abs() < 1e-6, "{modulus}");
+    assert_eq!(verdict["coexists"][0]["motion"]["periods"], 1, "{verdict}");
+    page.close();
+}
