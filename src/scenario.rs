@@ -3,11 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use crate::model::{
-    ForceLaw, MAX_MODES, ModelError, ParameterSet, Parameters, ReducedSystem, state_dimension,
+    Device, ElectricalScaling, ForceLaw, MAX_MODES, ModelError, ParameterSet, Parameters, ReducedSystem,
+    Units, state_dimension,
 };
 
 /// Version written by this program; older ones are read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Smallest and largest end time of a run (dimensionless).
 pub const END_TIME: (f64, f64) = (1.0, 5000.0);
@@ -53,6 +54,17 @@ pub struct Scenario {
     pub initial: Option<Vec<f64>>,
     /// Duration of the run (dimensionless).
     pub t_end: f64,
+    /// What the ten numbers leave open of the device in SI units (see [`Device::from_parameters`]); its other entries
+    /// play no role. The paper's device when absent. Nothing dimensionless depends on it. Since version 2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub device: Option<Device>,
+    /// How the circuit of that device is scaled. Since version 2.
+    #[serde(skip_serializing_if = "is_as_printed")]
+    pub scaling: ElectricalScaling,
+}
+
+fn is_as_printed(scaling: &ElectricalScaling) -> bool {
+    *scaling == ElectricalScaling::AsPrinted
 }
 
 impl Default for Scenario {
@@ -63,11 +75,41 @@ impl Default for Scenario {
             model: ModelChoice::default(),
             initial: None,
             t_end: 600.0,
+            device: None,
+            scaling: ElectricalScaling::default(),
         }
     }
 }
 
 impl Scenario {
+    /// The device in SI units: the ten numbers are what is computed from, so that it always agrees with them.
+    ///
+    /// # Errors
+    /// As [`Device::from_parameters`].
+    pub fn device(&self) -> Result<Device, ModelError> {
+        Device::from_parameters(&self.base(), &self.parameters, self.scaling)
+    }
+
+    /// Makes `device` the scenario's: its dimensionless numbers under `scaling` become the ten numbers.
+    ///
+    /// # Errors
+    /// [`ModelError`] naming what is out of range, in SI units or dimensionless; nothing is changed then.
+    pub fn set_device(&mut self, device: Device, scaling: ElectricalScaling) -> Result<(), ModelError> {
+        self.parameters = *Parameters::new(device.dimensionless(scaling)?)?;
+        (self.device, self.scaling, self.version) = (Some(device), scaling, VERSION);
+        Ok(())
+    }
+
+    /// The SI units in which the dimensionless quantities count.
+    pub fn units(&self) -> Units {
+        Units::of(&self.base(), self.scaling)
+    }
+
+    /// The device that says what the ten numbers leave open.
+    pub fn base(&self) -> Device {
+        self.device.unwrap_or_default()
+    }
+
     /// Checks everything, and gives the system and the state to start from.
     ///
     /// # Errors
@@ -78,6 +120,9 @@ impl Scenario {
             return Err(ModelError::Count { field: "version", value, minimum, maximum: VERSION as usize });
         }
         ModelError::check("t_end", self.t_end, END_TIME, "")?;
+        if let Some(device) = &self.device {
+            device.check()?;
+        }
         let system = self.model.system(self.parameters)?;
         let dimension = system.dimension();
         let initial = self.initial.clone().unwrap_or_else(|| vec![0.0; dimension]);
@@ -132,6 +177,45 @@ mod tests {
         let model = ModelChoice { modes: 4, force: ForceLaw::Taylor(5) };
         let scenario = Scenario { model, initial: Some(vec![0.1; 9]), ..Default::default() };
         assert_eq!(serde_json::from_str::<Scenario>(&serde_json::to_string(&scenario)?)?, scenario);
+        Ok(())
+    }
+
+    #[test]
+    fn a_stored_state_of_version_1_loads_and_one_without_a_device_is_stored_without() {
+        let old = r#"{"version":1,"parameters":{"beta":0.01},"model":{"modes":3},"t_end":100.0}"#;
+        let scenario: Scenario = serde_json::from_str(old).expect("an old state");
+        assert!(scenario.validate().is_ok() && scenario.device.is_none() && scenario.parameters.beta == 0.01);
+        let text = serde_json::to_string(&scenario).expect("plain data");
+        assert!(!text.contains("device") && !text.contains("scaling"), "{text}");
+        assert!(Scenario { version: VERSION + 1, ..Default::default() }.validate().is_err());
+    }
+
+    #[test]
+    fn device_and_numbers_agree_whichever_is_changed() -> Result<(), ModelError> {
+        let mut scenario = Scenario::default();
+        let mut device = Device { beam_length: 0.3, resistance: 1e5, ..scenario.device()? };
+        device = device.with_acceleration(0.3);
+        scenario.set_device(device, ElectricalScaling::Consistent)?;
+        assert!((scenario.device()?.acceleration() / 0.3 - 1.0).abs() < 1e-12);
+        assert!((scenario.device()?.resistance / 1e5 - 1.0).abs() < 1e-12);
+        // The numbers move the device ...
+        scenario.parameters.omega *= 2.0;
+        assert!((scenario.device()?.frequency / (2.0 * device.frequency) - 1.0).abs() < 1e-12);
+        let units = scenario.units();
+        let hertz = units.hertz(scenario.parameters.omega);
+        assert!((hertz / scenario.device()?.frequency - 1.0).abs() < 1e-12);
+        // ... and kappa v^2 is V^2/R in watts.
+        let watts = units.watts(scenario.parameters.kappa * 25.0);
+        assert!((watts / (25.0 / 1e5) - 1.0).abs() < 1e-12);
+        // What is out of range changes nothing.
+        let before = scenario.clone();
+        let wrong = Device { beam_mass: -1.0, ..device };
+        assert!(scenario.set_device(wrong, ElectricalScaling::AsPrinted).is_err());
+        assert_eq!(scenario, before);
+        let text = serde_json::to_string(&scenario).expect("plain data");
+        let back: Scenario = serde_json::from_str(&text).expect("the same");
+        assert_eq!((back.version, back.scaling), (VERSION, ElectricalScaling::Consistent));
+        assert!((back.device()?.resistance / 1e5 - 1.0).abs() < 1e-12);
         Ok(())
     }
 }

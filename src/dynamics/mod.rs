@@ -10,11 +10,13 @@
 //! * [`motion`] says what motion a start leads to; [`lyapunov`] has its exponents, [`spectrum`] and
 //!   [`voltage_spectrum`] its lines, which [`spectral_label`] names, and [`verdict`] weighs all of it.
 //! * [`signature`] tells whether two starts lead to the same motion.
+//! * [`balance`] is the energy balance of a motion.
 //! * [`forced`] is the motion that grows out of rest with the excitation.
 //! * [`boundary`] and [`tongue`] find where the forced motion loses its stability, [`continuation`] follows periodic
 //!   motions in any parameter, [`curves`] their bifurcations in any two.
 
 mod arclength;
+pub mod balance;
 pub mod boundary;
 mod bracket;
 pub mod branch;
@@ -56,6 +58,7 @@ mod variation;
 pub mod verdict;
 pub mod voltage_spectrum;
 
+pub use balance::Balance;
 pub use boundary::{CriticalExcitation, critical_excitation, largest_multipliers};
 pub use branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course};
 pub use collocation::{Collocation, Settings};

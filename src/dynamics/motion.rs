@@ -8,7 +8,7 @@ use super::lyapunov::Exponent;
 use super::orbit::{Measures, Orbit};
 use super::poincare::Recurrence;
 use super::{IntegrationError, Search};
-use crate::model::ReducedSystem;
+use crate::model::{Demand, ReducedSystem};
 
 /// The class of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -159,6 +159,16 @@ pub struct Cell {
     pub power: f64,
     /// Lowest and highest tip displacement, in beam lengths; 0 when the motion ended.
     pub tip: (f64, f64),
+    /// Largest |v| (V); 0 when the motion ended.
+    pub v_peak: f64,
+}
+
+impl Cell {
+    /// What the motion asks of the device, its slope left open; `None` when it ended.
+    pub fn demand(&self) -> Option<Demand> {
+        let ended = matches!(self.motion, Motion::Escape { .. } | Motion::Contact { .. });
+        (!ended).then_some(Demand { v_peak: self.v_peak, tip: self.tip, slope: None })
+    }
 }
 
 impl Cell {
@@ -175,9 +185,10 @@ impl Reached {
         match self.measures {
             Some(measures) => {
                 let tip = (measures.tip_min, measures.tip_max);
-                Cell { motion, v_rms: measures.v_rms, power: measures.power, tip }
+                let Measures { v_rms, power, v_peak, .. } = measures;
+                Cell { motion, v_rms, power, tip, v_peak }
             }
-            None => Cell { motion, v_rms: 0.0, power: 0.0, tip: (0.0, 0.0) },
+            None => Cell { motion, v_rms: 0.0, power: 0.0, tip: (0.0, 0.0), v_peak: 0.0 },
         }
     }
 }

@@ -31,6 +31,8 @@ pub struct Measures {
     pub tip_min: f64,
     /// Highest tip displacement, in beam lengths.
     pub tip_max: f64,
+    /// Largest |v| (V).
+    pub v_peak: f64,
 }
 
 /// A periodic motion of a system.
@@ -72,7 +74,7 @@ impl Orbit {
             type Output = Result<Orbit, OrbitError>;
             fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
                 let beta = self.0.parameters.beta;
-                let mut solver = OrbitSolver::new(self.0, force)?;
+                let mut solver = OrbitSolver::new(self.0, force);
                 let convergence = solver.find(self.1, beta, self.2)?;
                 Orbit::read(self.0, &mut solver, convergence, beta, self.2)
             }
@@ -169,6 +171,8 @@ pub(super) struct Observer {
     steps: f64,
     lowest: Highest,
     highest: Highest,
+    /// Of v and of -v.
+    voltage: [Highest; 2],
     /// From the first step.
     propagator: Option<Propagator>,
     /// Logarithm of the determinant of the map's derivative.
@@ -183,6 +187,7 @@ impl Default for Observer {
             steps: 0.0,
             lowest: Highest::new(Scalar::Tip, -1.0),
             highest: Highest::new(Scalar::Tip, 1.0),
+            voltage: [1.0, -1.0].map(|sign| Highest::new(Scalar::Voltage, sign)),
             propagator: None,
             logarithm: 0.0,
         }
@@ -197,15 +202,19 @@ impl Observer {
         self.propagator.get_or_insert_with(|| step.propagator.clone());
         self.lowest.see(step, step.tip);
         self.highest.see(step, step.tip);
+        self.voltage.iter_mut().for_each(|highest| highest.see(step, &voltage));
     }
 
     pub(super) fn measures(&self, kappa: f64) -> Measures {
         // The steps are equally long, so the mean is that of their means.
         let mean = self.square / self.steps;
-        let (tip_min, tip_max) = match &self.propagator {
-            Some(propagator) => (-self.lowest.value(propagator), self.highest.value(propagator)),
-            None => (f64::INFINITY, f64::NEG_INFINITY),
+        let (tip_min, tip_max, v_peak) = match &self.propagator {
+            Some(propagator) => {
+                let [up, down] = self.voltage.each_ref().map(|highest| highest.value(propagator));
+                (-self.lowest.value(propagator), self.highest.value(propagator), up.max(down))
+            }
+            None => (f64::INFINITY, f64::NEG_INFINITY, 0.0),
         };
-        Measures { v_rms: mean.sqrt(), power: kappa * mean, tip_min, tip_max }
+        Measures { v_rms: mean.sqrt(), power: kappa * mean, tip_min, tip_max, v_peak }
     }
 }

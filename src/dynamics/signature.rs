@@ -154,13 +154,19 @@ mod tests {
         let system = ModelChoice::default().system(ParameterSet::default()).expect("the paper's device");
         let recogniser = Recogniser::new(&system);
         let torus = |v_rms| Signature {
-            cell: Cell { motion: Motion::Quasiperiodic, v_rms, power: 0.0, tip: (0.0, 0.0) },
+            cell: Cell { motion: Motion::Quasiperiodic, v_rms, power: 0.0, tip: (0.0, 0.0), v_peak: 0.0 },
             states: vec![vec![0.0; 5]],
         };
         assert!(recogniser.same(&torus(20.0), &torus(20.5)));
         assert!(!recogniser.same(&torus(20.0), &torus(25.0)));
         let escape = |time| Signature {
-            cell: Cell { motion: Motion::Escape { time }, v_rms: 0.0, power: 0.0, tip: (0.0, 0.0) },
+            cell: Cell {
+                motion: Motion::Escape { time },
+                v_rms: 0.0,
+                power: 0.0,
+                tip: (0.0, 0.0),
+                v_peak: 0.0,
+            },
             states: Vec::new(),
         };
         assert!(recogniser.same(&escape(1.0), &escape(5.0)));

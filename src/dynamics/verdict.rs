@@ -15,12 +15,11 @@ use super::orbit::Orbit;
 use super::voltage_spectrum::{Peak, VoltageSpectrumError};
 use super::{Inquiry, IntegrationError};
 use crate::model::force::Exact;
+use crate::model::limits::LINEAR_BEAM;
 use crate::model::{ForceLaw, ReducedSystem, RestForce};
 
 /// Distance from the periodic motion, relative to the amplitude, beyond which the transient has not gone.
 const TRANSIENT: f64 = 1e-3;
-/// Tip displacement, in beam lengths, up to which the beam bends as a linear one.
-const LINEAR_BEAM: f64 = 0.3;
 /// Error of the force law from which it is told, relative.
 const FORCE_ERROR: f64 = 0.1;
 

@@ -4,6 +4,8 @@
 use super::study::Study;
 use super::work::{Finding, Work};
 
+/// Done part of a study that counts as a first picture of it.
+const FIRST_PICTURE: f64 = 0.03;
 /// How many workers may die over a piece before it counts as impossible.
 const MOST_DEATHS: u32 = 2;
 
@@ -167,7 +169,8 @@ impl Foreman {
     }
 
     /// The next piece for an idle worker and the number under which it is to be returned: from the first of the
-    /// `urgent` lanes that has one, else from whichever other lane is least far.
+    /// `urgent` lanes that has one, else from the first of the others that has no first picture yet, else from the
+    /// first of the others.
     pub fn assign(
         &mut self,
         worker: usize,
@@ -176,8 +179,8 @@ impl Foreman {
     ) -> Option<(u64, Work)> {
         let slot = self.busy.get_mut(worker).filter(|slot| slot.is_none())?;
         let mut order: Vec<usize> = (0..lanes.len()).collect();
-        let done = |lane: &usize| lanes[*lane].progress().unwrap_or(1.0);
-        order[urgent.min(lanes.len())..].sort_by(|a, b| done(a).total_cmp(&done(b)));
+        let pictured = |lane: &usize| lanes[*lane].progress().is_none_or(|done| done >= FIRST_PICTURE);
+        order[urgent.min(lanes.len())..].sort_by_key(pictured);
         for lane in order {
             let traffic = &mut lanes[lane];
             if let Some(piece) = traffic.next() {
@@ -363,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn of_the_others_the_one_that_is_least_far_goes_first() {
+    fn of_the_others_one_without_a_picture_goes_first() {
         let (mut a, mut b) = (Lane::default(), Lane::default());
         a.ask(Three { handed: 1, found: vec![(1, answer(""))] });
         b.ask(Three::default());

@@ -2,6 +2,7 @@
 //! behind the page's plots.
 
 pub mod batch;
+pub mod design;
 pub mod foreman;
 pub mod inspection;
 pub mod motions;

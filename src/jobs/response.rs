@@ -28,6 +28,8 @@ pub struct ResponsePoint {
     pub power: f64,
     /// Lowest and highest tip displacement, in beam lengths.
     pub tip: (f64, f64),
+    /// Largest |v| (V).
+    pub v_peak: f64,
     /// Modulus of the largest multiplier over the branch's period.
     pub multiplier: f64,
 }
@@ -154,6 +156,7 @@ fn point(point: &BranchPoint) -> ResponsePoint {
         v_rms: measures.v_rms,
         power: measures.power,
         tip: (measures.tip_min, measures.tip_max),
+        v_peak: measures.v_peak,
         multiplier: point.multipliers.first().map_or(0.0, |mu| mu.norm()),
     }
 }

@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use super::{ModelError, ParameterSet};
+use super::materials::Ceramic;
+use super::{Dimension, ModelError, ParameterSet};
 
 /// How the circuit's numbers are made dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -15,6 +16,34 @@ pub enum ElectricalScaling {
     AsPrinted,
     /// With one factor L less, as a moment Theta V with Theta in N m/V demands; right for a device of one's own.
     Consistent,
+}
+
+impl ElectricalScaling {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::AsPrinted, Self::Consistent];
+
+    /// What it is for, in one sentence.
+    pub const fn explanation(self) -> &'static str {
+        match self {
+            Self::AsPrinted => {
+                "As the paper prints it: capacitance, load and coupling are scaled with L^2, which gives the paper's \
+                 numbers from the paper's device but counts the coupling in N/V."
+            }
+            Self::Consistent => {
+                "Consistent in its units: capacitance, load and coupling are scaled with L, as a moment Theta V with \
+                 Theta in N m/V demands; choose it for a device of your own."
+            }
+        }
+    }
+
+    /// The factor between a circuit's number and its dimensionless one, L^2/(E I) or L/(E I), for a beam of `length`
+    /// (m) and bending stiffness `stiffness` (N m^2).
+    pub(super) fn factor(self, length: f64, stiffness: f64) -> f64 {
+        match self {
+            Self::AsPrinted => length * length / stiffness,
+            Self::Consistent => length / stiffness,
+        }
+    }
 }
 
 /// A harvester and its excitation in SI units (Table 1 and section 3.2).
@@ -51,7 +80,8 @@ pub struct Device {
     pub gravity: f64,
     /// Capacitance C_eq (F).
     pub capacitance: f64,
-    /// Load resistance R_eq (ohm).
+    /// Load resistance R_eq (ohm); infinite, and null in JSON, for an open circuit.
+    #[serde(with = "super::open_circuit")]
     pub resistance: f64,
     /// Electromechanical coupling Theta (N/V as printed, N m/V consistently).
     pub coupling: f64,
@@ -59,6 +89,13 @@ pub struct Device {
     pub base_amplitude: f64,
     /// Frequency Omega/(2 pi) of the base motion (Hz).
     pub frequency: f64,
+    /// Thickness of the ceramic layer (m), which decides what voltage it bears. The paper calls it extremely thin and
+    /// prints none.
+    pub ceramic_thickness: f64,
+    /// Dielectric dissipation factor tan delta of the ceramic (dimensionless); 0 in the paper's model.
+    pub loss_tangent: f64,
+    /// The ceramic, where one is chosen; the paper names none for its device.
+    pub ceramic: Option<Ceramic>,
 }
 
 impl Default for Device {
@@ -84,6 +121,9 @@ impl Default for Device {
             coupling: 1.1906e-5,
             base_amplitude: 4.8e-4,
             frequency: 0.0,
+            ceramic_thickness: 2e-4,
+            loss_tangent: 0.0,
+            ceramic: None,
         };
         device.frequency = 25.0 / (TAU * device.time_unit());
         device
@@ -138,15 +178,12 @@ impl Device {
     /// [`ModelError::GapClosed`] when the sag closes the gap.
     #[doc(alias = "eq-8")]
     pub fn dimensionless(&self, scaling: ElectricalScaling) -> Result<ParameterSet, ModelError> {
-        self.check_signs()?;
+        self.check()?;
         let (length, stiffness, time) = (self.beam_length, self.bending_stiffness(), self.time_unit());
         if self.sag() >= self.magnet_distance {
             return Err(ModelError::GapClosed { sag: self.sag(), distance: self.magnet_distance });
         }
-        let electrical = match scaling {
-            ElectricalScaling::AsPrinted => length * length / stiffness,
-            ElectricalScaling::Consistent => length / stiffness,
-        };
+        let electrical = scaling.factor(length, stiffness);
         Ok(ParameterSet {
             alpha: self.viscosity / length
                 * (self.second_moment / (self.youngs_modulus * length * self.beam_mass)).sqrt(),
@@ -162,30 +199,13 @@ impl Device {
         })
     }
 
-    fn check_signs(&self) -> Result<(), ModelError> {
-        let positive = (1e-15, 1e15);
-        let not_negative = (0.0, 1e15);
-        for (field, value, range, unit) in [
-            ("permeability", self.permeability, positive, " H/m"),
-            ("magnet_length", self.magnet_length, positive, " m"),
-            ("magnet_radius", self.magnet_radius, not_negative, " m"),
-            ("magnet_area", self.magnet_area, not_negative, " m^2"),
-            ("flux_density", self.flux_density, not_negative, " T"),
-            ("magnet_distance", self.magnet_distance, positive, " m"),
-            ("beam_length", self.beam_length, positive, " m"),
-            ("beam_mass", self.beam_mass, positive, " kg"),
-            ("tip_mass", self.tip_mass, not_negative, " kg"),
-            ("youngs_modulus", self.youngs_modulus, positive, " Pa"),
-            ("second_moment", self.second_moment, positive, " m^4"),
-            ("viscosity", self.viscosity, not_negative, " Pa s"),
-            ("gravity", self.gravity, not_negative, " m/s^2"),
-            ("capacitance", self.capacitance, positive, " F"),
-            ("resistance", self.resistance, positive, " ohm"),
-            ("coupling", self.coupling, not_negative, " N/V"),
-            ("base_amplitude", self.base_amplitude, not_negative, " m"),
-            ("frequency", self.frequency, positive, " Hz"),
-        ] {
-            ModelError::check(field, value, range, unit)?;
+    /// Checks every dimension against the range in which it makes sense.
+    ///
+    /// # Errors
+    /// [`ModelError::OutOfRange`] or [`ModelError::NotFinite`] for the first that fails.
+    pub fn check(&self) -> Result<(), ModelError> {
+        for dimension in Dimension::ALL {
+            dimension.check(dimension.get(self))?;
         }
         Ok(())
     }

@@ -1,24 +1,32 @@
 //! Section 2 of the paper, in its order: device, parameters, magnet, modes, the reduced system.
 
 pub mod device;
+pub mod dimension;
 pub mod eigenvalues;
 pub mod energy;
 pub mod error;
 pub mod force;
+pub mod inverse;
+pub mod limits;
 pub mod magnet;
 pub mod materials;
 pub mod modes;
+mod open_circuit;
 pub mod parameters;
 pub mod quadrature;
 pub mod reduced;
+pub mod units;
 
 pub use device::{Device, ElectricalScaling};
+pub use dimension::Dimension;
 pub use error::ModelError;
 pub use force::{ForceLaw, RestForce};
+pub use limits::{Demand, Limits};
 pub use magnet::{Equilibrium, Magnet};
 pub use modes::{Mode, ModeSet};
 pub use parameters::{Parameter, ParameterSet, Parameters};
 pub use reduced::ReducedSystem;
+pub use units::Units;
 
 /// Largest number of modes a truncation may keep (dimensionless count).
 pub const MAX_MODES: usize = 8;

@@ -12,6 +12,7 @@ pub mod coupled;
 pub mod error;
 pub mod linear_response;
 pub mod published;
+pub mod source;
 pub mod spectrum;
 pub mod steady_state;
 
@@ -19,4 +20,5 @@ pub use coupled::CoupledModes;
 pub use error::TheoryError;
 pub use linear_response::{DynamicStiffness, LinearResponse};
 pub use published::{Published, Resonance};
+pub use source::Source;
 pub use steady_state::{Harmonic, SteadyState};

@@ -1,0 +1,154 @@
+//! What a device harvests under its own excitation: the linear device without magnets, the forced motion, and the
+//! motion that its start leads to, side by side.
+
+use serde::{Deserialize, Serialize};
+
+use super::linear::linear_balance;
+use super::{DesignError, Plant};
+use crate::dynamics::motion::Horizon;
+use crate::dynamics::{Balance, ForcedMotion, Motion, reach};
+use crate::model::{Demand, ReducedSystem};
+use crate::scenario::Scenario;
+
+/// Excitation periods over which a motion that never repeats is measured.
+const RECORD: usize = 512;
+
+/// What a steady motion delivers and what it costs.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Harvest {
+    /// Root mean square of the voltage (V).
+    pub v_rms: f64,
+    /// Mean power in the load (W), V^2/R_eq.
+    pub power: f64,
+    /// The same over the square of the base's acceleration (W/g^2); `None` at rest.
+    pub power_per_g2: Option<f64>,
+    /// Lowest and highest tip displacement from equilibrium (mm).
+    pub tip: (f64, f64),
+    /// Mean power that the shaken base puts in (W).
+    pub input: f64,
+    /// Mean power lost in the material's damping (W).
+    pub viscous: f64,
+    /// Mean power lost in the dielectric (W).
+    pub dielectric: f64,
+    /// power / input (dimensionless); `None` without input.
+    pub efficiency: Option<f64>,
+    /// |input - power - losses - energy stored| over the largest of them: what the computation has lost.
+    pub defect: f64,
+    /// What it asks of the device, for the limits.
+    pub demand: Demand,
+}
+
+impl Harvest {
+    /// Of a motion of `system`, one of `plant`, with its `balance`.
+    pub fn new(plant: &Plant, system: &ReducedSystem, balance: &Balance) -> Self {
+        let p = &system.parameters;
+        let units = &plant.units;
+        let share = if p.kappa > 0.0 { plant.load / p.kappa } else { 0.0 };
+        let power = units.watts(share * balance.electrical);
+        let acceleration = units.acceleration(p.beta, p.omega);
+        let per_input = balance.electrical * share / balance.input;
+        Self {
+            v_rms: balance.v_rms,
+            power,
+            power_per_g2: (acceleration > 0.0).then(|| power / (acceleration * acceleration)),
+            tip: (units.millimetres(balance.tip.0), units.millimetres(balance.tip.1)),
+            input: units.watts(balance.input),
+            viscous: units.watts(balance.viscous),
+            dielectric: units.watts((1.0 - share) * balance.electrical),
+            efficiency: (balance.input > 0.0).then_some(per_input),
+            defect: balance.defect(),
+            demand: Demand { v_peak: balance.v_peak, tip: balance.tip, slope: Some(balance.slope) },
+        }
+    }
+}
+
+/// The forced motion, which grows out of rest with the excitation.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Forced {
+    /// What it delivers, whether it is stable or not.
+    pub harvest: Harvest,
+    /// Whether it is.
+    pub stable: bool,
+    /// Modulus of its largest multiplier.
+    pub multiplier: f64,
+}
+
+/// The motion that the start leads to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Lasting {
+    /// Its class.
+    pub motion: Motion,
+    /// What it delivers; `None` when it ended.
+    pub harvest: Option<Harvest>,
+}
+
+/// Three motions of one device under one excitation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Operating {
+    /// Excitation frequency (Hz).
+    pub frequency: f64,
+    /// Amplitude of the base's acceleration (g).
+    pub acceleration: f64,
+    /// Load resistance (ohm); absent without a load.
+    pub resistance: Option<f64>,
+    /// The device without its magnets, in closed form.
+    pub linear: Harvest,
+    /// The forced motion; `None` when it cannot be followed to this excitation.
+    pub forced: Option<Forced>,
+    /// The motion that the scenario's start leads to.
+    pub reached: Lasting,
+    /// Power of the forced motion over that of the linear device, be it a gain or a loss; `None` without one of them.
+    pub forced_gain: Option<f64>,
+    /// Power of the motion reached over that of the linear device.
+    pub reached_gain: Option<f64>,
+}
+
+/// What the device of `scenario` harvests under its own excitation.
+///
+/// The comparison is with the same device without magnets, same beam, damping, load and excitation, at this one
+/// frequency: close to the linear device's own resonance the magnets may well lose.
+///
+/// # Errors
+/// [`DesignError`].
+pub fn operating(scenario: &Scenario) -> Result<Operating, DesignError> {
+    let plant = Plant::new(scenario)?;
+    let (system, initial) = plant.scenario.validate()?;
+    let bare = plant.without_magnets()?;
+    let linear = Harvest::new(&plant, &bare, &linear_balance(&bare)?);
+    let forced = match ForcedMotion::of(&system)?.orbit {
+        None => None,
+        Some(orbit) => Balance::of(&system, &orbit.state, orbit.periods)?.map(|balance| Forced {
+            harvest: Harvest::new(&plant, &system, &balance),
+            stable: orbit.stable(),
+            multiplier: orbit.largest_multiplier().norm(),
+        }),
+    };
+    let reached = lasting(&plant, &system, &initial)?;
+    let gain = |harvest: &Harvest| (linear.power > 0.0).then(|| harvest.power / linear.power);
+    let p = &system.parameters;
+    Ok(Operating {
+        frequency: plant.units.hertz(p.omega),
+        acceleration: plant.units.acceleration(p.beta, p.omega),
+        resistance: Some(plant.resistance()).filter(|resistance| resistance.is_finite()),
+        forced_gain: forced.as_ref().and_then(|forced| gain(&forced.harvest)),
+        reached_gain: reached.harvest.as_ref().and_then(gain),
+        linear,
+        forced,
+        reached,
+    })
+}
+
+/// The motion that the start of `system`, one of `plant`, in `initial` leads to.
+///
+/// # Errors
+/// As [`reach`].
+pub fn lasting(plant: &Plant, system: &ReducedSystem, initial: &[f64]) -> Result<Lasting, DesignError> {
+    let reached = reach(system, initial, Horizon::chart(plant.scenario.t_end))?;
+    let motion = reached.motion;
+    let balance = match (&reached.orbit, motion) {
+        (_, Motion::Escape { .. } | Motion::Contact { .. }) => None,
+        (Some(orbit), _) => Balance::of(system, &orbit.state, orbit.periods)?,
+        (None, _) => Balance::of(system, &reached.state, RECORD)?,
+    };
+    Ok(Lasting { motion, harvest: balance.map(|balance| Harvest::new(plant, system, &balance)) })
+}

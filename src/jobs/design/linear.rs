@@ -1,0 +1,138 @@
+//! The linear device in closed form: its balance at a frequency, its curve, its peak and its half-power band.
+
+use serde::{Deserialize, Serialize};
+
+use super::{DesignError, Interval, Plant};
+use crate::dynamics::Balance;
+use crate::model::ReducedSystem;
+use crate::theory::{LinearResponse, spectrum::eigenvalues};
+
+/// Distances from a resonance, in its own widths, at which a curve has points.
+const ABOUT_RESONANCE: [f64; 13] = [0.0, 0.125, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 13.0, 20.0];
+/// Golden sections that locate a peak.
+const SECTIONS: usize = 60;
+/// Halvings that locate a border of a band.
+const HALVINGS: usize = 60;
+
+/// The energy balance of the linear steady state of `system` under its own excitation, R(s) left out.
+///
+/// With displacements Q e^(i omega t) the mean of a product of two harmonics is half the real part of one times the
+/// other's conjugate.
+///
+/// # Errors
+/// As [`LinearResponse::new`].
+pub fn linear_balance(system: &ReducedSystem) -> Result<Balance, DesignError> {
+    let response = LinearResponse::new(system)?;
+    let p = &system.parameters;
+    let (omega, square) = (p.omega, p.omega * p.omega);
+    let tip = response.tip().norm();
+    let (mut input, mut viscous) = (0.0, -system.c1 * square * tip * tip);
+    for (mode, q) in system.modes.iter().zip(response.displacements.iter()) {
+        // The velocity i omega q against a force that is real.
+        input -= mode.eta1 * omega * q.im;
+        viscous += mode.eta2 * mode.omega * mode.omega * square * q.norm_sqr();
+    }
+    let slopes = system.modes.iter().zip(response.displacements.iter()).map(|(mode, q)| q * mode.tip_slope);
+    let v_peak = response.voltage.norm();
+    Ok(Balance {
+        input: 0.5 * square * p.beta * input,
+        viscous: 0.5 * p.alpha * viscous,
+        electrical: 0.5 * p.kappa * v_peak * v_peak,
+        stored: 0.0,
+        v_rms: v_peak * std::f64::consts::FRAC_1_SQRT_2,
+        v_peak,
+        tip: (-tip, tip),
+        slope: slopes.sum::<nalgebra::Complex<f64>>().norm(),
+    })
+}
+
+/// The power of the linear device over frequency.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LinearCurve {
+    /// Frequency (Hz), v_rms (V), power (W) and tip amplitude (mm), ascending in frequency and denser about the
+    /// resonances.
+    pub points: Vec<[f64; 4]>,
+    /// Frequency (Hz) and power (W) of the highest peak.
+    pub peak: [f64; 2],
+    /// Where the power is at least half of that about it (Hz), as far as the window goes.
+    pub half_power: Interval,
+}
+
+/// The power of `plant` without its magnets for `omega` (dimensionless) in `window`, at its own amplitude of the base.
+///
+/// # Errors
+/// [`DesignError`].
+pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<LinearCurve, DesignError> {
+    let system = plant.without_magnets()?;
+    let beta = system.parameters.beta;
+    let units = &plant.units;
+    let at = |omega: f64| -> Result<[f64; 4], DesignError> {
+        let response = LinearResponse::new(&system.with_excitation(beta, omega)?)?;
+        let v_rms = response.voltage.norm() * std::f64::consts::FRAC_1_SQRT_2;
+        let tip = units.millimetres(response.tip().norm());
+        Ok([units.hertz(omega), v_rms, plant.watts(v_rms), tip])
+    };
+    // An undamped device has no steady state at its resonance.
+    let power = |omega: f64| at(omega).map_or(f64::INFINITY, |point| point[2]);
+    let omegas = frequencies(&system, window, count)?;
+    let highest =
+        (0..omegas.len()).max_by(|i, j| power(omegas[*i]).total_cmp(&power(omegas[*j]))).unwrap_or(0);
+    let around = (omegas[highest.saturating_sub(1)], omegas[(highest + 1).min(omegas.len() - 1)]);
+    let place = highest_place(power, around);
+    let half = 0.5 * power(place);
+    let below = omegas.iter().rev().copied().find(|omega| *omega < place && power(*omega) < half);
+    let above = omegas.iter().copied().find(|omega| *omega > place && power(*omega) < half);
+    let border = |outside: f64| units.hertz(crossing(|omega| power(omega) >= half, place, outside));
+    Ok(LinearCurve {
+        points: omegas.iter().filter_map(|omega| at(*omega).ok()).collect(),
+        peak: [units.hertz(place), power(place)],
+        half_power: Interval {
+            from: below.map_or(units.hertz(window.0), border),
+            to: above.map_or(units.hertz(window.1), border),
+        },
+    })
+}
+
+/// Equally spaced frequencies of the window, and more about the resonances of `system`.
+fn frequencies(system: &ReducedSystem, window: (f64, f64), count: usize) -> Result<Vec<f64>, DesignError> {
+    let (low, high) = window;
+    let last = count.max(2) - 1;
+    let mut omegas: Vec<f64> = (0..=last).map(|i| low + (high - low) * i as f64 / last as f64).collect();
+    for value in eigenvalues(system)?.into_iter().filter(|value| value.im > 0.0) {
+        for distance in ABOUT_RESONANCE {
+            omegas.extend([-1.0, 1.0].map(|side| value.im + side * distance * value.re.abs()));
+        }
+    }
+    omegas.retain(|omega| (low..=high).contains(omega));
+    omegas.sort_by(f64::total_cmp);
+    omegas.dedup();
+    Ok(omegas)
+}
+
+/// Where `f` is highest between the ends of a bracket that holds one peak, by golden sections.
+pub(super) fn highest_place(f: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> f64 {
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let (mut a, mut b) = (high - golden * (high - low), low + golden * (high - low));
+    let (mut at_a, mut at_b) = (f(a), f(b));
+    for _ in 0..SECTIONS {
+        if at_a < at_b {
+            (low, a, at_a) = (a, b, at_b);
+            b = low + golden * (high - low);
+            at_b = f(b);
+        } else {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - golden * (high - low);
+            at_a = f(a);
+        }
+    }
+    if at_a < at_b { b } else { a }
+}
+
+/// Where `inside` ceases to hold between a place where it does and one where it does not.
+fn crossing(inside: impl Fn(f64) -> bool, mut within: f64, mut outside: f64) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (within + outside);
+        if inside(middle) { within = middle } else { outside = middle }
+    }
+    within
+}

@@ -1,0 +1,85 @@
+//! A scenario as a plant that delivers watts: its units, its load, and the dielectric loss beside the load.
+
+use crate::model::materials::dielectric_conductance;
+use crate::model::{ModelError, ParameterSet, Parameters, ReducedSystem, Units};
+use crate::scenario::Scenario;
+
+/// A scenario with its SI units and losses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plant {
+    /// The scenario whose kappa is the whole conductance: the load and, where the device has a loss tangent, the
+    /// dielectric loss at the scenario's own frequency, a constant conductance beside the load. Everything dynamic is
+    /// computed from it.
+    pub scenario: Scenario,
+    /// Conductance of the load alone (dimensionless).
+    pub load: f64,
+    /// Conductance of the dielectric loss (dimensionless).
+    pub leakage: f64,
+    /// SI units.
+    pub units: Units,
+}
+
+impl Plant {
+    /// The plant of `scenario`, whose kappa is the load.
+    ///
+    /// # Errors
+    /// [`ModelError`], naming what is out of range.
+    pub fn new(scenario: &Scenario) -> Result<Self, ModelError> {
+        let ParameterSet { omega, c, kappa, .. } = scenario.parameters;
+        let leakage = dielectric_conductance(scenario.base().loss_tangent, omega, c);
+        Self::with(scenario, kappa, leakage)
+    }
+
+    fn with(scenario: &Scenario, load: f64, leakage: f64) -> Result<Self, ModelError> {
+        let mut scenario = scenario.clone();
+        scenario.parameters.kappa = load + leakage;
+        scenario.validate()?;
+        let units = scenario.units();
+        Ok(Self { scenario, load, leakage, units })
+    }
+
+    /// The same plant with a load of `resistance` (ohm).
+    ///
+    /// # Errors
+    /// [`ModelError`] when the conductance is out of range.
+    pub fn with_resistance(&self, resistance: f64) -> Result<Self, ModelError> {
+        Self::with(&self.scenario, self.conductance(resistance), self.leakage)
+    }
+
+    /// Dimensionless conductance of a resistance (ohm), and the other way round: (1 ohm)^-1 of the one is the other.
+    pub fn conductance(&self, resistance: f64) -> f64 {
+        1.0 / (self.units.power * resistance)
+    }
+
+    /// Resistance of the load (ohm), infinite without one.
+    pub fn resistance(&self) -> f64 {
+        1.0 / (self.units.power * self.load)
+    }
+
+    /// The system that is computed.
+    ///
+    /// # Errors
+    /// As [`ReducedSystem::new`].
+    pub fn system(&self) -> Result<ReducedSystem, ModelError> {
+        self.scenario.model.system(self.scenario.parameters)
+    }
+
+    /// The linear device that it is compared with: the same one without its magnets (c0 = 0).
+    ///
+    /// # Errors
+    /// As [`ReducedSystem::new`].
+    pub fn without_magnets(&self) -> Result<ReducedSystem, ModelError> {
+        let set = ParameterSet { c0: 0.0, ..self.scenario.parameters };
+        ReducedSystem::new(Parameters::new(set)?, self.scenario.model.modes, self.scenario.model.force)
+    }
+
+    /// Mean power in the load (W), V^2/R_eq, at a root mean square voltage (V).
+    pub fn watts(&self, v_rms: f64) -> f64 {
+        self.units.watts(self.load * v_rms * v_rms)
+    }
+
+    /// Distance s0 of the magnets at rest (beam lengths); `None` without magnets, which cannot touch.
+    pub fn gap(system: &ReducedSystem) -> Option<f64> {
+        (system.parameters.c0 != 0.0).then_some(system.equilibrium.gap)
+    }
+}

@@ -1,0 +1,188 @@
+//! Section 5.4 and the model's own limits: what voltage the ceramic bears, where the magnets touch, and how far the
+//! beam bends before it is no linear one.
+
+use serde::{Deserialize, Serialize};
+
+use super::Device;
+use super::materials::METRES_PER_MIL;
+
+/// Tip displacement, in beam lengths, beyond which the beam is no linear one.
+pub const LINEAR_BEAM: f64 = 0.3;
+/// Slope at the tip (rad) beyond which it is none: there the arc is 4.5 % longer than its projection.
+pub const LINEAR_SLOPE: f64 = 0.3;
+
+/// What is limited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LimitKind {
+    /// Largest |v| against the field that the ceramic bears (V).
+    Voltage,
+    /// How much of the gap s0 the tip closes (dimensionless); at 1 the magnets touch.
+    Gap,
+    /// Largest tip displacement from equilibrium over the beam's length (dimensionless).
+    Deflection,
+    /// Largest slope at the tip, measured from equilibrium (rad).
+    Slope,
+    /// Sag of the tip under gravity over the beam's length (dimensionless): the model counts it as small.
+    Sag,
+}
+
+/// How a value stands to its limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Standing {
+    /// Below the limit.
+    Within,
+    /// Within the published range of the limit, so that it depends on the piece.
+    Marginal,
+    /// Beyond it.
+    Exceeded,
+}
+
+/// One limit, checked.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Check {
+    /// What is limited.
+    pub kind: LimitKind,
+    /// The value, in the unit that [`LimitKind`] names.
+    pub value: f64,
+    /// Its limit; the lower end where a range is published.
+    pub limit: f64,
+    /// What is left, 1 - value / limit (dimensionless); negative beyond the limit.
+    pub margin: f64,
+    /// The same in a word.
+    pub standing: Standing,
+}
+
+impl Check {
+    fn new(kind: LimitKind, value: f64, (limit, most): (f64, f64)) -> Self {
+        // Written so that NaN exceeds; the voltage just at the limit is allowed, the magnets just touching are not.
+        let standing = if value < limit || (value == limit && kind != LimitKind::Gap) {
+            Standing::Within
+        } else if value <= most && kind == LimitKind::Voltage {
+            Standing::Marginal
+        } else {
+            Standing::Exceeded
+        };
+        Self { kind, value, limit, margin: 1.0 - value / limit, standing }
+    }
+}
+
+/// What a motion asks of the device.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Demand {
+    /// Largest |v| (V).
+    pub v_peak: f64,
+    /// Lowest and highest tip displacement from equilibrium, in beam lengths.
+    pub tip: (f64, f64),
+    /// Largest |slope| at the tip (rad), where it is known.
+    pub slope: Option<f64>,
+}
+
+/// The limits of a device.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Limits {
+    /// Lower and upper end of the range published for the largest voltage (V); none when no ceramic is chosen, or
+    /// nothing is published for it. The peak is held against it, which is the careful reading of "VAC".
+    pub voltage: Option<(f64, f64)>,
+    /// Part of the gap s0 that the tip may close (dimensionless), at most 1.
+    pub gap: f64,
+    /// Largest tip displacement, in beam lengths.
+    pub deflection: f64,
+    /// Largest slope at the tip (rad).
+    pub slope: f64,
+}
+
+impl Default for Limits {
+    /// Contact, and the linear beam; no ceramic.
+    fn default() -> Self {
+        Self { voltage: None, gap: 1.0, deflection: LINEAR_BEAM, slope: LINEAR_SLOPE }
+    }
+}
+
+impl Limits {
+    /// Section 5.4: the limits of `device`, whose ceramic of its thickness bears the published field.
+    pub fn of(device: &Device) -> Self {
+        let mils = device.ceramic_thickness / METRES_PER_MIL;
+        let field = device.ceramic.and_then(|ceramic| ceramic.material().field_limit);
+        Self { voltage: field.map(|(low, high)| (low * mils, high * mils)), ..Self::default() }
+    }
+
+    /// Every limit that applies to `demand`. `gap` is s0 in beam lengths; `None` without magnets, which then cannot
+    /// touch.
+    pub fn checks(&self, demand: &Demand, gap: Option<f64>) -> Vec<Check> {
+        let exactly = |limit: f64| (limit, limit);
+        let (low, high) = demand.tip;
+        let mut checks = Vec::with_capacity(4);
+        checks.extend(self.voltage.map(|range| Check::new(LimitKind::Voltage, demand.v_peak, range)));
+        checks.extend(gap.map(|gap| Check::new(LimitKind::Gap, (-low / gap).max(0.0), exactly(self.gap))));
+        checks.push(Check::new(LimitKind::Deflection, high.max(-low), exactly(self.deflection)));
+        checks.extend(demand.slope.map(|slope| Check::new(LimitKind::Slope, slope, exactly(self.slope))));
+        checks
+    }
+
+    /// Whether `demand` keeps all limits, a marginal voltage counted as not kept.
+    pub fn allow(&self, demand: &Demand, gap: Option<f64>) -> bool {
+        self.checks(demand, gap).iter().all(|check| check.standing == Standing::Within)
+    }
+
+    /// The sag of `device` against the deflection of a linear beam.
+    pub fn sag(&self, device: &Device) -> Check {
+        let sag = device.sag() / device.beam_length;
+        Check::new(LimitKind::Sag, sag, (self.deflection, self.deflection))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::materials::Ceramic;
+
+    #[test]
+    fn the_ceramics_thickness_times_the_published_field_is_its_voltage() {
+        // 0.254 mm are 10 mil: 5-7 V/mil are 50 to 70 V.
+        let device =
+            Device { ceramic_thickness: 2.54e-4, ceramic: Some(Ceramic::Apc855), ..Default::default() };
+        let limits = Limits::of(&device);
+        let (low, high) = limits.voltage.expect("published");
+        assert!((low - 50.0).abs() < 1e-12 && (high - 70.0).abs() < 1e-12);
+        for (v_peak, standing) in
+            [(49.0, Standing::Within), (60.0, Standing::Marginal), (71.0, Standing::Exceeded)]
+        {
+            let demand = Demand { v_peak, ..Default::default() };
+            let check = limits.checks(&demand, None)[0];
+            assert_eq!((check.kind, check.standing), (LimitKind::Voltage, standing));
+            assert!((check.margin - (1.0 - v_peak / 50.0)).abs() < 1e-12);
+            assert_eq!(limits.allow(&demand, None), standing == Standing::Within);
+        }
+        assert_eq!(Limits::of(&Device { ceramic: Some(Ceramic::Apc860), ..device }).voltage, None);
+    }
+
+    #[test]
+    fn every_limit_changes_the_verdict_when_it_is_violated() {
+        let limits = Limits { voltage: Some((10.0, 12.0)), gap: 0.8, ..Default::default() };
+        let good = Demand { v_peak: 9.0, tip: (-0.1, 0.2), slope: Some(0.2) };
+        assert!(limits.allow(&good, Some(0.17)));
+        for (kind, bad) in [
+            (LimitKind::Voltage, Demand { v_peak: 10.5, ..good }),
+            (LimitKind::Gap, Demand { tip: (-0.14, 0.2), ..good }),
+            (LimitKind::Deflection, Demand { tip: (-0.1, 0.31), ..good }),
+            (LimitKind::Slope, Demand { slope: Some(0.31), ..good }),
+            (LimitKind::Slope, Demand { slope: Some(f64::NAN), ..good }),
+        ] {
+            assert!(!limits.allow(&bad, Some(0.17)), "{kind:?}");
+            let broken =
+                limits.checks(&bad, Some(0.17)).into_iter().filter(|c| c.standing != Standing::Within);
+            assert_eq!(broken.map(|check| check.kind).collect::<Vec<_>>(), [kind]);
+        }
+        // Without magnets there is nothing to touch.
+        assert!(limits.allow(&Demand { tip: (-0.2, 0.2), ..good }, None));
+    }
+
+    #[test]
+    fn the_papers_own_beam_sags_by_more_than_half_its_length() {
+        let check = Limits::default().sag(&Device::default());
+        assert!(check.value > 0.55 && check.standing == Standing::Exceeded, "{check:?}");
+    }
+}
