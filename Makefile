@@ -10,6 +10,12 @@ DEV_DIST := target/page-dev-dist
 export PATH := $(CURDIR)/.tools/bin:$(CURDIR)/node_modules/.bin:$(PATH)
 # Trunk understands NO_COLOR=true only, not the usual 1.
 unexport NO_COLOR
+# Panic messages name source files: those of other crates without the builder's home. Cargo joins this to the flags of
+# .cargo/config.toml (RUSTFLAGS would replace them). It splits at spaces, so a home with one is left as it is.
+CRATES := $(or $(CARGO_HOME),$(HOME)/.cargo)/registry/src
+ifeq ($(words $(CRATES)),1)
+export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS := --remap-path-prefix=$(CRATES)=crates
+endif
 # Helpers of tests panic as tests do; the sources are linted once more without this.
 TESTS_MAY_PANIC := -A clippy::expect_used -A clippy::unwrap_used
 

@@ -134,6 +134,52 @@ fn a_bad_request_gets_status_2_and_one_line_that_names_the_field() {
             &["omega", "600", "0.1 to 500"],
         ),
         (r#"{"task":"modes","parameters":{"c0":-10}}"#, &["pull-in", "c0 = -10", "gap"]),
+        (r#"{"task":"orbit","guess":[0,0]}"#, &["guess", "5 numbers", "2"]),
+        (r#"{"task":"orbit","periods":65}"#, &["periods", "65", "1 to 64"]),
+        (
+            r#"{"task":"boundary","resonance":"sum","theory":"floquet","omega":[25],"limit":1}"#,
+            &["limit", "1", "0.000001 to 0.2"],
+        ),
+        (
+            r#"{"task":"boundary","resonance":"sum","theory":"floquet","omega":[25],"model":{"modes":1}}"#,
+            &["two modes", "1"],
+        ),
+        (r#"{"task":"chart","beta":{"from":0,"to":0.01},"quantity":"power"}"#, &["omega", "missing"]),
+        (
+            r#"{"task":"chart","omega":8,"beta":{"from":0,"to":0.01},"quantity":"power"}"#,
+            &["omega", "8", "from", "to", "count"],
+        ),
+        (
+            r#"{"task":"chart","omega":{"from":8,"to":"nine"},"beta":{"from":0,"to":0.01},"quantity":"power"}"#,
+            &["omega.to", "nine", "0.1 to 500"],
+        ),
+        (
+            r#"{"task":"chart","omega":{"from":8,"to":9},"beta":{"from":0,"to":1},"quantity":"power"}"#,
+            &["beta.to", "1", "0 to 0.2"],
+        ),
+        (
+            r#"{"task":"chart","omega":{"from":8,"to":9,"count":2000},"beta":{"from":0,"to":0.1},"quantity":"motion"}"#,
+            &["omega.count", "2000", "2 to 512"],
+        ),
+        (
+            r#"{"task":"chart","omega":{"from":8,"to":9},"beta":{"from":0,"to":0.1},"quantity":"colour"}"#,
+            &["quantity", "colour", "multiplier", "v_rms"],
+        ),
+        (r#"{"task":"sweep","parameter":"omega","from":9,"to":8}"#, &["omega.to", "8", "9 to 500"]),
+        (
+            r#"{"task":"sweep","parameter":"omega","from":8,"to":9,"count":2000,"kept":1000}"#,
+            &["count times kept", "2000000", "200000"],
+        ),
+        (r#"{"task":"sweep","parameter":"omega","from":8,"to":9,"transient":9999}"#, &["transient", "5000"]),
+        (r#"{"task":"verdict","t_end":1e6}"#, &["t_end", "1000000", "1 to 5000"]),
+        (r#"{"task":"verdict","initial":[0]}"#, &["initial", "5 numbers", "1"]),
+        (r#"{"task":"basin","count":1}"#, &["count", "1", "2 to 512"]),
+        (
+            r#"{"task":"basin","x":{"component":"q3","from":0,"to":1}}"#,
+            &["x.component", "q3", "q1, q2, dq1/dt, dq2/dt, v"],
+        ),
+        (r#"{"task":"basin","x":{"component":"dq1/dt","from":0,"to":1}}"#, &["dq1/dt", "differ"]),
+        (r#"{"task":"basin","y":{"component":"q2","from":0,"to":11}}"#, &["y.to", "11", "0 to 10"]),
     ] {
         let message = message(request.as_bytes());
         for part in parts {
@@ -143,11 +189,17 @@ fn a_bad_request_gets_status_2_and_one_line_that_names_the_field() {
 }
 
 #[test]
-fn input_that_is_no_text_is_refused_and_arguments_show_the_usage() {
+fn input_that_is_no_text_is_refused_and_arguments_are_explained() {
     assert!(message(&[0xff, 0xfe, 0x00]).contains("cannot be read"));
-    let output = harvester(&["--help"], b"");
+    for (argument, start) in [("--help", "usage: harvester"), ("--version", "harvester 0.")] {
+        let output = harvester(&[argument], b"");
+        assert_eq!(output.status.code(), Some(0));
+        assert!(String::from_utf8_lossy(&output.stdout).starts_with(start));
+    }
+    let output = harvester(&["--fast"], b"");
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).starts_with("usage: harvester"));
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(message.contains("--fast") && message.contains("usage: harvester"), "{message}");
 }
 
 #[test]
@@ -155,7 +207,7 @@ fn every_example_of_the_readme_has_an_answer() {
     let readme = include_str!("../README.md");
     let after = |line: &'static str| line.strip_prefix("echo '")?.split_once("' | target/release/harvester");
     let requests: Vec<&str> = readme.lines().filter_map(after).map(|(request, _)| request).collect();
-    for task in ["modes", "boundary", "simulate"] {
+    for task in ["modes", "boundary", "simulate", "orbit", "chart", "sweep", "verdict", "basin"] {
         let asks = |request: &&&str| request.contains(&format!("\"task\":\"{task}\""));
         assert!(requests.iter().any(|request| asks(&request)), "the README has no example of {task}");
     }
@@ -178,6 +230,23 @@ fn every_example_of_the_readme_has_an_answer() {
                 let rows = given["state"].as_array().map(Vec::len);
                 assert_eq!(given["outcome"], "completed");
                 assert_eq!(rows.map(|rows| rows as u64), asked["samples"].as_u64());
+            }
+            Some("orbit") => assert_eq!(given["instability"], "period_doubling"),
+            Some("chart") => {
+                let size = |field: &str| asked[field]["count"].as_u64().unwrap_or_default() as usize;
+                assert_eq!(given["values"].as_array().map(Vec::len), Some(size("beta")));
+                assert_eq!(given["values"][0].as_array().map(Vec::len), Some(size("omega")));
+                assert!(given["values"].to_string().contains("period 2"));
+            }
+            Some("sweep") => {
+                assert_eq!(
+                    given["points"].as_array().map(|points| points.len() as u64),
+                    asked["count"].as_u64()
+                );
+            }
+            Some("verdict") => assert_eq!(given["motion"]["kind"], "quasiperiodic"),
+            Some("basin") => {
+                assert_eq!(given["cells"].as_array().map(|rows| rows.len() as u64), asked["count"].as_u64());
             }
             other => panic!("{other:?}"),
         }

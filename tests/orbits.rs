@@ -124,7 +124,7 @@ impl ForceVisitor for Differences<'_> {
     /// Largest deviation of the map's derivative from central differences, in comparable components.
     fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
         let Self(system, periods) = self;
-        let mut map = PeriodMap::new(system, force)?;
+        let mut map = PeriodMap::new(system, force);
         map.refine()?;
         let beta = system.parameters.beta;
         let n = map.dimension();

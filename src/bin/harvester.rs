@@ -1,36 +1,95 @@
-//! The native command: one JSON request on standard input, one JSON answer on standard output.
+//! The native command: JSON requests on standard input, JSON answers on standard output.
 //!
-//! Exit status 0 with an answer; 2 with one line on standard error when the request is not good.
+//! Exit status 0 with an answer, or a line for each line of a batch; 2 with one line on standard error when the input
+//! is not good.
 
-use std::io::{Read, Write};
+use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::process::ExitCode;
 
+use harvester_lab::jobs::batch::{BatchError, answer_lines};
 use harvester_lab::jobs::solve;
 
 const USAGE: &str = "usage: harvester < request.json > answer.json
+       harvester --batch < requests.jsonl > answers.jsonl
 
 One JSON request on standard input, one JSON answer on standard output, for example
   echo '{\"task\":\"modes\"}' | harvester
-Tasks: modes, boundary, simulate. The README describes their fields.";
+Tasks: modes, boundary, simulate, orbit, chart, sweep, verdict, basin. The README describes their fields.
+
+  --batch    one request a line, one answer a line in the same order, on all cores;
+             a bad line is answered with {\"error\": ...}
+  --help     this text
+  --version  the version";
+
+/// What the command is asked to do.
+enum Mode {
+    Single,
+    Batch,
+    Say(String),
+}
 
 fn main() -> ExitCode {
-    if std::env::args().len() > 1 {
-        return say_and_fail(USAGE);
-    }
-    let mut request = String::new();
-    if let Err(error) = std::io::stdin().read_to_string(&mut request) {
-        return say_and_fail(&format!("the request cannot be read: {error}"));
-    }
-    match solve(&request) {
-        Ok(answer) => match writeln!(std::io::stdout(), "{answer}") {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => say_and_fail(&format!("the answer cannot be written: {error}")),
-        },
-        Err(message) => say_and_fail(&message),
+    match mode() {
+        Ok(Mode::Single) => single(),
+        Ok(Mode::Batch) => batch(),
+        Ok(Mode::Say(text)) => say(&text),
+        Err(error) => fail(&format!("{error}\n{USAGE}")),
     }
 }
 
-fn say_and_fail(message: &str) -> ExitCode {
+/// Reads the arguments.
+fn mode() -> Result<Mode, lexopt::Error> {
+    use lexopt::prelude::{Long, Short};
+    let mut parser = lexopt::Parser::from_env();
+    let mut mode = Mode::Single;
+    while let Some(argument) = parser.next()? {
+        match argument {
+            Long("batch") => mode = Mode::Batch,
+            Long("help") | Short('h') => return Ok(Mode::Say(USAGE.to_owned())),
+            Long("version") | Short('V') => {
+                return Ok(Mode::Say(format!("harvester {}", env!("CARGO_PKG_VERSION"))));
+            }
+            other => return Err(other.unexpected()),
+        }
+    }
+    Ok(mode)
+}
+
+fn single() -> ExitCode {
+    let mut request = String::new();
+    if let Err(error) = io::stdin().read_to_string(&mut request) {
+        return fail(&format!("the request cannot be read: {error}"));
+    }
+    match solve(&request) {
+        Ok(answer) => say(&answer),
+        Err(message) => fail(&message),
+    }
+}
+
+fn batch() -> ExitCode {
+    match answer_lines(io::stdin().lock(), BufWriter::new(io::stdout().lock())) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(BatchError::Write(error)) => unwritten(&error),
+        Err(error) => fail(&error.to_string()),
+    }
+}
+
+fn say(text: &str) -> ExitCode {
+    match writeln!(io::stdout(), "{text}") {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => unwritten(&error),
+    }
+}
+
+/// Whoever closed the pipe has read enough; a full disk must be told.
+fn unwritten(error: &io::Error) -> ExitCode {
+    if error.kind() == ErrorKind::BrokenPipe {
+        return ExitCode::SUCCESS;
+    }
+    fail(&format!("the answer cannot be written: {error}"))
+}
+
+fn fail(message: &str) -> ExitCode {
     eprintln!("{message}");
     ExitCode::from(2)
 }

@@ -68,7 +68,7 @@ pub(super) struct Family<const K: usize> {
 impl<const K: usize> Family<K> {
     /// The orbits of `periods` excitation periods of the device `system` with its parameters on `axes`.
     pub(super) fn new(system: &ReducedSystem, axes: [Axis; K], periods: usize) -> Result<Self, OrbitError> {
-        let mut solver = OrbitSolver::new(system, Law(system.rest_force()))?;
+        let mut solver = OrbitSolver::new(system, Law(system.rest_force()));
         let gap = solver.map().gap();
         let state = solver.map().scales().iter().map(|scale| scale * gap);
         let units = state.chain(axes.iter().map(Axis::width)).collect();
@@ -124,7 +124,7 @@ impl<const K: usize> Family<K> {
                 None => {
                     let system = self.system.with_numbers(set)?;
                     let (law, level) = (Law(system.rest_force()), self.solver.map().level());
-                    let map = PeriodMap::with_level(&system, law, level)?;
+                    let map = PeriodMap::with_level(&system, law, level);
                     let solver = OrbitSolver::with_map(&system, map);
                     (system, solver)
                 }

@@ -85,7 +85,7 @@ pub fn critical_excitation(
     impl ForceVisitor for Search<'_> {
         type Output = Result<CriticalExcitation, OrbitError>;
         fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-            let mut solver = OrbitSolver::new(self.0, force)?;
+            let mut solver = OrbitSolver::new(self.0, force);
             let (found, _) = search(&mut solver, self.1, self.2)?;
             Ok(found)
         }
@@ -108,7 +108,7 @@ pub fn largest_multipliers(
     impl ForceVisitor for Sweep<'_> {
         type Output = Result<Vec<Option<Complex<f64>>>, OrbitError>;
         fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-            let mut solver = OrbitSolver::new(self.0, force)?;
+            let mut solver = OrbitSolver::new(self.0, force);
             let mut here = Some(Forced::at_rest(&mut solver)?);
             let mut values = Vec::with_capacity(self.1.len());
             for beta in self.1 {

@@ -32,7 +32,7 @@ impl ForcedMotion {
             type Output = Result<(CriticalExcitation, Option<Vec<f64>>), OrbitError>;
             fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
                 let beta = self.0.parameters.beta;
-                let mut solver = OrbitSolver::new(self.0, force)?;
+                let mut solver = OrbitSolver::new(self.0, force);
                 let (critical, mut here) = search(&mut solver, beta, None)?;
                 if matches!(critical, CriticalExcitation::Ends { .. }) {
                     return Ok((critical, None));

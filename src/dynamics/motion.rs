@@ -171,6 +171,13 @@ impl Cell {
     }
 }
 
+impl Cell {
+    /// Whether the motion goes on, so that it has means.
+    pub fn lasts(&self) -> bool {
+        !matches!(self.motion, Motion::Escape { .. } | Motion::Contact { .. })
+    }
+}
+
 impl Reached {
     /// What a chart stores.
     pub fn cell(&self) -> Cell {

@@ -43,11 +43,8 @@ pub struct OrbitSolver<F> {
 
 impl<F: RestForce> OrbitSolver<F> {
     /// Prepares the map of `system` under `force`.
-    ///
-    /// # Errors
-    /// As [`PeriodMap::new`].
-    pub fn new(system: &ReducedSystem, force: F) -> Result<Self, OrbitError> {
-        Ok(Self::with_map(system, PeriodMap::new(system, force)?))
+    pub fn new(system: &ReducedSystem, force: F) -> Self {
+        Self::with_map(system, PeriodMap::new(system, force))
     }
 
     /// A solver of `system` with its `map`.
@@ -61,14 +58,6 @@ impl<F: RestForce> OrbitSolver<F> {
             matrix: DMatrix::zeros(n, n),
             residual: f64::INFINITY,
         }
-    }
-
-    /// Goes over to `system`, which differs from the present one in its excitation only.
-    ///
-    /// # Errors
-    /// As [`PeriodMap::retune`].
-    pub fn retune(&mut self, system: &ReducedSystem) -> Result<(), OrbitError> {
-        self.map.retune(system)
     }
 
     /// The map, for what only it knows.

@@ -74,7 +74,7 @@ impl Orbit {
             type Output = Result<Orbit, OrbitError>;
             fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
                 let beta = self.0.parameters.beta;
-                let mut solver = OrbitSolver::new(self.0, force)?;
+                let mut solver = OrbitSolver::new(self.0, force);
                 let convergence = solver.find(self.1, beta, self.2)?;
                 Orbit::read(self.0, &mut solver, convergence, beta, self.2)
             }

@@ -69,24 +69,18 @@ pub struct PeriodMap<F> {
 
 impl<F: RestForce> PeriodMap<F> {
     /// Prepares the map of `system` under `force` on the coarsest grid. The system's beta is not used.
-    ///
-    /// # Errors
-    /// None at present.
-    pub fn new(system: &ReducedSystem, force: F) -> Result<Self, OrbitError> {
+    pub fn new(system: &ReducedSystem, force: F) -> Self {
         Self::with_level(system, force, 0)
     }
 
     /// Prepares the map on the coarsest grid halved `level` times.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub(super) fn with_level(system: &ReducedSystem, force: F, level: u32) -> Result<Self, OrbitError> {
+    pub(super) fn with_level(system: &ReducedSystem, force: F, level: u32) -> Self {
         let period = system.parameters.period();
         let steps = coarsest_steps(system) << level;
         let propagator = Propagator::new(&LinearPart::new(system), period / steps as f64);
         let tables = StepTables::of(&propagator);
         let size = tables.stride() * (tables.dimension() + 1);
-        Ok(Self {
+        Self {
             extended: vec![0.0; propagator.part().extended_dimension()],
             end: vec![0.0; tables.stride()],
             step: vec![0.0; size],
@@ -101,18 +95,7 @@ impl<F: RestForce> PeriodMap<F> {
             period,
             steps,
             tables,
-        })
-    }
-
-    /// Prepares the map of `system`, which differs from the present one in its excitation only, on a grid as much
-    /// refined as the present one.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn retune(&mut self, system: &ReducedSystem) -> Result<(), OrbitError> {
-        self.period = system.parameters.period();
-        self.set_steps(&LinearPart::new(system), coarsest_steps(system) << self.level);
-        Ok(())
+        }
     }
 
     /// Length 2N + 1 of the state.

@@ -14,10 +14,6 @@ use crate::model::reduced::ForceVisitor;
 use crate::model::{ModelError, Parameter, ReducedSystem, RestForce};
 use crate::scenario::Scenario;
 
-/// Allowed numbers of periods thrown away and kept.
-const DISCARDED: (usize, usize) = (0, 5000);
-const KEPT: (usize, usize) = (1, 1000);
-
 /// How long each value is held, in excitation periods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Dwell {
@@ -34,13 +30,18 @@ impl Default for Dwell {
 }
 
 impl Dwell {
+    /// Allowed numbers of periods thrown away.
+    pub const DISCARDED: (usize, usize) = (0, 5000);
+    /// Allowed numbers of periods kept.
+    pub const KEPT: (usize, usize) = (1, 1000);
+
     /// Checks both numbers.
     ///
     /// # Errors
     /// [`ModelError`] naming the one out of range.
     pub fn validate(&self) -> Result<(), ModelError> {
         for (field, value, (minimum, maximum)) in
-            [("discarded", self.discarded, DISCARDED), ("kept", self.kept, KEPT)]
+            [("discarded", self.discarded, Self::DISCARDED), ("kept", self.kept, Self::KEPT)]
         {
             if !(minimum..=maximum).contains(&value) {
                 return Err(ModelError::Count { field, value, minimum, maximum });

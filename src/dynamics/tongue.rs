@@ -93,7 +93,7 @@ pub fn trace_tongue(
         type Output = Result<Option<Start>, OrbitError>;
         fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
             let Search(system, kind, limit) = self;
-            let mut solver = OrbitSolver::new(system, force)?;
+            let mut solver = OrbitSolver::new(system, force);
             Ok(match search(&mut solver, *limit, Some(*kind))? {
                 (CriticalExcitation::Unstable { beta, .. }, orbit) => {
                     let at = [system.parameters.omega, beta];

@@ -4,6 +4,8 @@
 use super::study::Study;
 use super::work::{Finding, Work};
 
+/// Done part of a study that counts as a first picture of it.
+const FIRST_PICTURE: f64 = 0.03;
 /// How many workers may die over a piece before it counts as impossible.
 const MOST_DEATHS: u32 = 2;
 
@@ -166,11 +168,21 @@ impl Foreman {
         Self { busy: vec![None; workers], handed: 0 }
     }
 
-    /// The next piece for an idle worker, from the first of `lanes` that has one, and the number under which it is to
-    /// be returned.
-    pub fn assign(&mut self, worker: usize, lanes: &mut [&mut dyn Traffic]) -> Option<(u64, Work)> {
+    /// The next piece for an idle worker and the number under which it is to be returned: from the first of the
+    /// `urgent` lanes that has one, else from the first of the others that has no first picture yet, else from the
+    /// first of the others.
+    pub fn assign(
+        &mut self,
+        worker: usize,
+        lanes: &mut [&mut dyn Traffic],
+        urgent: usize,
+    ) -> Option<(u64, Work)> {
         let slot = self.busy.get_mut(worker).filter(|slot| slot.is_none())?;
-        for (lane, traffic) in lanes.iter_mut().enumerate() {
+        let mut order: Vec<usize> = (0..lanes.len()).collect();
+        let pictured = |lane: &usize| lanes[*lane].progress().is_none_or(|done| done >= FIRST_PICTURE);
+        order[urgent.min(lanes.len())..].sort_by_key(pictured);
+        for lane in order {
+            let traffic = &mut lanes[lane];
             if let Some(piece) = traffic.next() {
                 self.handed += 1;
                 let work = piece.work.clone();
@@ -270,7 +282,7 @@ mod tests {
         let mut foreman = Foreman::new(2);
         let mut deaths = 0;
         while lane.progress().is_some() {
-            let given: Vec<_> = (0..2).map(|worker| foreman.assign(worker, &mut [&mut lane])).collect();
+            let given: Vec<_> = (0..2).map(|worker| foreman.assign(worker, &mut [&mut lane], 1)).collect();
             for (worker, given) in given.into_iter().enumerate() {
                 match given {
                     Some(_) if worker == 1 && deaths == 0 => {
@@ -294,13 +306,13 @@ mod tests {
         let mut lane = Lane::default();
         lane.ask(Three::default());
         let mut foreman = Foreman::new(1);
-        let (old, _) = foreman.assign(0, &mut [&mut lane]).expect("work");
+        let (old, _) = foreman.assign(0, &mut [&mut lane], 1).expect("work");
         lane.ask(Three::default());
         assert_eq!(foreman.obsolete(&[&mut lane]).collect::<Vec<_>>(), vec![0]);
         foreman.returned(0, old, answer("old"), &mut [&mut lane]);
         assert!(lane.study().is_some_and(|study| study.found.is_empty()) && !foreman.is_busy(0));
         // A late second return of the same number changes nothing either.
-        let (new, _) = foreman.assign(0, &mut [&mut lane]).expect("work");
+        let (new, _) = foreman.assign(0, &mut [&mut lane], 1).expect("work");
         foreman.returned(0, old, answer("old"), &mut [&mut lane]);
         assert!(foreman.is_busy(0));
         foreman.returned(0, new, answer("new"), &mut [&mut lane]);
@@ -317,7 +329,7 @@ mod tests {
         }
         assert_eq!(lane.generation(), 1);
         for _ in 0..3 {
-            let (number, _) = foreman.assign(0, &mut [&mut lane]).expect("work");
+            let (number, _) = foreman.assign(0, &mut [&mut lane], 1).expect("work");
             foreman.returned(0, number, answer(""), &mut [&mut lane]);
         }
         // The second of three was never begun.
@@ -331,10 +343,10 @@ mod tests {
         lane.ask(Three::default());
         let mut foreman = Foreman::new(1);
         for _ in 0..6 {
-            assert!(foreman.assign(0, &mut [&mut lane]).is_some());
+            assert!(foreman.assign(0, &mut [&mut lane], 1).is_some());
             foreman.died(0, &mut [&mut lane]);
         }
-        assert!(foreman.assign(0, &mut [&mut lane]).is_none());
+        assert!(foreman.assign(0, &mut [&mut lane], 1).is_none());
         let study = lane.study().expect("asked");
         assert!(study.finished() && study.found.iter().all(|(_, finding)| finding.is_err()));
     }
@@ -346,10 +358,21 @@ mod tests {
         urgent.ask(Three::default());
         let mut foreman = Foreman::new(4);
         for worker in 0..4 {
-            assert!(foreman.assign(worker, &mut [&mut urgent, &mut other]).is_some());
+            assert!(foreman.assign(worker, &mut [&mut urgent, &mut other], 1).is_some());
         }
         let left = |lane: &Lane<Three>| lane.study().map(|study| 3 - study.handed);
         assert_eq!((left(&urgent), left(&other)), (Some(0), Some(2)));
         assert_eq!(foreman.busy_count(), 4);
+    }
+
+    #[test]
+    fn of_the_others_one_without_a_picture_goes_first() {
+        let (mut a, mut b) = (Lane::default(), Lane::default());
+        a.ask(Three { handed: 1, found: vec![(1, answer(""))] });
+        b.ask(Three::default());
+        let mut foreman = Foreman::new(1);
+        let (number, _) = foreman.assign(0, &mut [&mut a, &mut b], 0).expect("work");
+        assert_eq!(b.study().map(|study| study.handed), Some(1));
+        foreman.returned(0, number, answer(""), &mut [&mut a, &mut b]);
     }
 }

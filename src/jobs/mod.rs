@@ -1,6 +1,7 @@
 //! Questions and answers: one request type for the native command, JavaScript and the page, and the sliced run
 //! behind the page's plots.
 
+pub mod batch;
 pub mod design;
 pub mod foreman;
 pub mod inspection;
@@ -9,11 +10,10 @@ pub mod request;
 pub mod response;
 pub mod run;
 pub mod study;
+pub mod tasks;
 pub mod work;
 
-mod answer;
-mod boundary;
-mod simulate;
+mod parallel;
 
 pub use request::{Request, RequestError};
 pub use run::{Run, RunJob};

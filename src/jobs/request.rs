@@ -1,17 +1,22 @@
-//! The requests: what may be asked, with every default and every check.
+//! The requests: what may be asked.
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use thiserror::Error;
 
-use super::answer::Answer;
-use super::boundary::{self, Theory};
-use super::simulate;
-use crate::dynamics::IntegrationError;
-use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem};
-use crate::scenario::ModelChoice;
-use crate::theory::{CoupledModes, Resonance, TheoryError};
+use super::tasks::Answer;
+use super::tasks::basin::BasinRequest;
+use super::tasks::boundary::BoundaryRequest;
+use super::tasks::chart::ChartRequest;
+use super::tasks::modes::ModesRequest;
+use super::tasks::orbit::OrbitRequest;
+use super::tasks::simulate::SimulateRequest;
+use super::tasks::sweep::SweepRequest;
+use super::tasks::verdict::VerdictRequest;
+use crate::dynamics::verdict::VerdictError;
+use crate::dynamics::{IntegrationError, OrbitError};
+use crate::model::{ModelError, Parameter};
+use crate::theory::TheoryError;
 
 /// Why a request has no answer; each is one line.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -30,6 +35,28 @@ pub enum RequestError {
         /// What is wrong, and what is allowed.
         problem: String,
     },
+    /// Too few or too many of something.
+    #[error("{field} = {value} is not available: allowed are {minimum} to {maximum}")]
+    Count {
+        /// Path of the field, or what is counted.
+        field: String,
+        /// How many were asked for.
+        value: usize,
+        /// Fewest allowed.
+        minimum: usize,
+        /// Most allowed.
+        maximum: usize,
+    },
+    /// A state does not suit the model.
+    #[error("{field} must be {expected} numbers (q1..qN, dq1/dt..dqN/dt, v), got {got}")]
+    State {
+        /// Name of the field.
+        field: &'static str,
+        /// Required length 2N + 1.
+        expected: usize,
+        /// Length given.
+        got: usize,
+    },
     /// A number describes no device.
     #[error(transparent)]
     Model(#[from] ModelError),
@@ -39,9 +66,19 @@ pub enum RequestError {
     /// The theory has no answer.
     #[error(transparent)]
     Theory(#[from] TheoryError),
+    /// There is no such periodic motion.
+    #[error(transparent)]
+    Orbit(#[from] OrbitError),
+    /// There is no verdict.
+    #[error(transparent)]
+    Verdict(#[from] VerdictError),
+    /// A part of a large question failed.
+    #[error("{0}")]
+    Study(String),
 }
 
-const TASKS: &str = "\"modes\", \"boundary\", \"simulate\"";
+const TASKS: &str =
+    "\"modes\", \"boundary\", \"simulate\", \"orbit\", \"chart\", \"sweep\", \"verdict\", \"basin\"";
 
 /// A checked question.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,81 +89,16 @@ pub enum Request {
     Boundary(BoundaryRequest),
     /// A run in time.
     Simulate(SimulateRequest),
-}
-
-/// The device and truncation asked about; every other request has the same two fields.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct ModesRequest {
-    /// The ten numbers; missing ones are the paper's.
-    pub parameters: ParameterSet,
-    /// Modes and force law.
-    pub model: ModelChoice,
-}
-
-/// A stability boundary.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BoundaryRequest {
-    /// The ten numbers; beta and omega play no role.
-    #[serde(default)]
-    pub parameters: ParameterSet,
-    /// Modes and force law; the theories use the quadratic term.
-    #[serde(default)]
-    pub model: ModelChoice,
-    /// Which resonance.
-    pub resonance: Resonance,
-    /// Which theory.
-    pub theory: Theory,
-    /// Excitation frequencies (dimensionless).
-    pub omega: Vec<f64>,
-}
-
-/// A run in time.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct SimulateRequest {
-    /// The ten numbers; missing ones are the paper's.
-    pub parameters: ParameterSet,
-    /// Modes and force law.
-    pub model: ModelChoice,
-    /// End time (dimensionless).
-    pub t_end: f64,
-    /// State at time 0, length 2N + 1; rest when absent.
-    pub initial: Option<Vec<f64>>,
-    /// Integrator.
-    pub method: Method,
-    /// Steps a period, for `rk4`.
-    pub steps_per_period: u32,
-    /// Bound on the error within a step, for `adaptive`.
-    pub tolerance: f64,
-    /// Number of equally spaced times at which the state is given, the first and the last included.
-    pub samples: usize,
-}
-
-impl Default for SimulateRequest {
-    fn default() -> Self {
-        Self {
-            parameters: ParameterSet::default(),
-            model: ModelChoice::default(),
-            t_end: 600.0,
-            initial: None,
-            method: Method::Adaptive,
-            steps_per_period: crate::dynamics::rk4::PAPER_STEPS_PER_PERIOD,
-            tolerance: crate::dynamics::Settings::default().tolerance,
-            samples: 101,
-        }
-    }
-}
-
-/// The integrators of a simulate request.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// The classical Runge-Kutta method with fixed steps, as the paper runs it.
-    Rk4,
-    /// The exponential collocation with error control.
-    Adaptive,
+    /// A periodic motion with its multipliers.
+    Orbit(OrbitRequest),
+    /// A chart over frequency and amplitude.
+    Chart(ChartRequest),
+    /// A sweep, the state carried from value to value.
+    Sweep(SweepRequest),
+    /// What motion a start leads to, and what that rests on.
+    Verdict(VerdictRequest),
+    /// Which motions the starts of a plane lead to.
+    Basin(BasinRequest),
 }
 
 impl Request {
@@ -146,6 +118,11 @@ impl Request {
             Some("modes") => Ok(Self::Modes(read(fields)?)),
             Some("boundary") => Ok(Self::Boundary(read(fields)?)),
             Some("simulate") => Ok(Self::Simulate(read(fields)?)),
+            Some("orbit") => Ok(Self::Orbit(read(fields)?)),
+            Some("chart") => Ok(Self::Chart(read(fields)?)),
+            Some("sweep") => Ok(Self::Sweep(read(fields)?)),
+            Some("verdict") => Ok(Self::Verdict(read(fields)?)),
+            Some("basin") => Ok(Self::Basin(read(fields)?)),
             _ => Err(RequestError::Task(task.to_string())),
         }
     }
@@ -156,12 +133,14 @@ impl Request {
     /// [`RequestError`] when a number is out of range or the question has no answer.
     pub fn answer(&self) -> Result<Answer, RequestError> {
         match self {
-            Self::Modes(request) => {
-                let system = request.model.system(request.parameters)?;
-                Ok(Answer::modes(&system, &CoupledModes::new(&system)?))
-            }
-            Self::Boundary(request) => boundary::answer(request),
-            Self::Simulate(request) => simulate::answer(request),
+            Self::Modes(request) => request.answer(),
+            Self::Boundary(request) => request.answer(),
+            Self::Simulate(request) => request.answer(),
+            Self::Orbit(request) => request.answer(),
+            Self::Chart(request) => request.answer(),
+            Self::Sweep(request) => request.answer(),
+            Self::Verdict(request) => request.answer(),
+            Self::Basin(request) => request.answer(),
         }
     }
 }
@@ -170,9 +149,7 @@ impl Request {
 fn read<T: DeserializeOwned>(value: Value) -> Result<T, RequestError> {
     serde_path_to_error::deserialize(value).map_err(|error| {
         let path = error.path().to_string();
-        let name = path.rsplit('.').next().unwrap_or_default();
-        let range = Parameter::ALL.iter().find(|parameter| parameter.field() == name).map(|p| p.range());
-        let problem = match range {
+        let problem = match range(&path) {
             Some((low, high)) => format!("{}: allowed are {low} to {high}", error.inner()),
             None => error.inner().to_string(),
         };
@@ -180,15 +157,10 @@ fn read<T: DeserializeOwned>(value: Value) -> Result<T, RequestError> {
     })
 }
 
-impl BoundaryRequest {
-    /// The system, with the frequencies checked.
-    ///
-    /// # Errors
-    /// [`ModelError`] naming the first number out of range.
-    pub fn system(&self) -> Result<ReducedSystem, ModelError> {
-        for omega in &self.omega {
-            ModelError::check("omega", *omega, Parameter::Omega.range(), "")?;
-        }
-        self.model.system(self.parameters)
-    }
+/// The range of the number at a path such as `parameters.beta`, `omega[3]` or `omega.from`, where it has one.
+fn range(path: &str) -> Option<(f64, f64)> {
+    let path = path.strip_suffix(".from").or_else(|| path.strip_suffix(".to")).unwrap_or(path);
+    let name = path.rsplit('.').next().unwrap_or_default();
+    let name = name.split('[').next().unwrap_or_default();
+    Parameter::ALL.iter().find(|parameter| parameter.field() == name).map(|parameter| parameter.range())
 }

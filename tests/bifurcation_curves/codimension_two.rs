@@ -21,7 +21,7 @@ impl ForceVisitor for Multipliers<'_> {
     /// which knows no orbit at a fold.
     fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
         let Self(system, state) = self;
-        let mut map = PeriodMap::new(system, force)?;
+        let mut map = PeriodMap::new(system, force);
         let beta = system.parameters.beta;
         while map.apply(state, beta, 1, |_, _| ())? > 1e-3 {
             map.refine()?;

@@ -175,8 +175,9 @@ class Window:
             reading, best = self.readings[name], self.best[name]
             for seen, low, high, dense in found:
                 if seen > 0.99 * self.best[name]:
-                    top = minimize_scalar(lambda t: -reading(dense(t)), bounds=(low, high), method="bounded",
-                                          options={"xatol": 1e-9})
+                    # From the start of the bracket: the method's tolerance is relative to its variable.
+                    top = minimize_scalar(lambda t: -reading(dense(low + t)), bounds=(0.0, high - low),
+                                          method="bounded", options={"xatol": 1e-9})
                     best = max(best, -top.fun)
             yield name, -best if name == "tip_min" else best
 

@@ -68,7 +68,7 @@ impl Crew {
             let in_background = !self.restrained || self.foreman.busy_count() == 0;
             let mut lanes = self.studies.lanes();
             let lanes = if in_background { &mut lanes[..] } else { &mut lanes[..Studies::URGENT] };
-            let Some((number, work)) = self.foreman.assign(worker, lanes) else { continue };
+            let Some((number, work)) = self.foreman.assign(worker, lanes, Studies::URGENT) else { continue };
             let longest = if matches!(work, Work::Answer { .. }) { LONGEST_ANSWER_MS } else { LONGEST_MS };
             self.begun[worker] = (milliseconds(), longest);
             self.workers.give(worker, number, &work);

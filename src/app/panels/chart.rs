@@ -105,8 +105,17 @@ fn value(cell: &Cell, layer: Layer) -> f64 {
     if layer == Layer::Power { cell.power } else { cell.v_rms }
 }
 
-/// The picture of the layer in view with its ranges of omega and beta, and whether any of it is known.
-fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<(TextureHandle, [(f64, f64); 2], bool)> {
+/// What is drawn under the curves.
+struct Picture {
+    texture: TextureHandle,
+    omega: (f64, f64),
+    beta: (f64, f64),
+    /// Whether any of it answers the newest question.
+    known: bool,
+}
+
+/// The picture of the layer in view.
+fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
     let tokens = theme::tokens(ui);
     let revision = |version: u64, generation: u64| {
         version ^ (generation << 32) ^ ((layer as u64) << 60) ^ (u64::from(tokens.dark) << 63)
@@ -116,8 +125,9 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<(TextureHandl
         let question = chart.question();
         let revision = revision(chart.version(), context.studies.multipliers.generation());
         let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
-        let picture = raster(ui, Id::unique("multiplier chart"), revision, question.size, paint)?;
-        return Some((picture, [question.omega, question.beta], chart.version() > 0));
+        let texture = raster(ui, Id::unique("multiplier chart"), revision, question.size, paint)?;
+        let known = chart.version() > 0;
+        return Some(Picture { texture, omega: question.omega, beta: question.beta, known });
     }
     let chart = context.studies.motions.study()?;
     let question = chart.question();
@@ -132,8 +142,8 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<(TextureHandl
     };
     let paint = |column, row| chart.shown(column, row).map(|cell| cell.map_or(tokens.inset, colour));
     let revision = revision(chart.version(), context.studies.motions.generation());
-    let picture = raster(ui, Id::unique("motion chart"), revision, question.size, paint)?;
-    Some((picture, [question.x.1, question.y.1], chart.version() > 0))
+    let texture = raster(ui, Id::unique("motion chart"), revision, question.size, paint)?;
+    Some(Picture { texture, omega: question.x.1, beta: question.y.1, known: chart.version() > 0 })
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
@@ -151,8 +161,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         .allow_double_click_reset(false)
         .show(ui, |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
-            if let Some((picture, [omega, beta], known)) = &picture {
-                draw_raster(plot, picture, *omega, *beta, if *known { 1.0 } else { 0.5 });
+            if let Some(Picture { texture, omega, beta, known }) = &picture {
+                draw_raster(plot, texture, *omega, *beta, if *known { 1.0 } else { 0.5 });
             }
             for tongue in &boundaries.tongues {
                 plot_style::series(plot, Series::Published, "published boundary", &tongue.published);

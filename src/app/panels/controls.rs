@@ -10,7 +10,7 @@ use crate::app::widgets::{Mark, ParameterSlider};
 use crate::model::{Device, Parameter, ParameterSet};
 
 /// Ends of the sliders; numbers beyond can come from a file or a request.
-const FREQUENCIES: (f64, f64) = (0.5, 50.0);
+pub(super) const FREQUENCIES: (f64, f64) = (0.5, 50.0);
 const SMALLEST_DAMPING: f64 = 1e-6;
 const SMALLEST_EXCITATION: f64 = 1e-5;
 

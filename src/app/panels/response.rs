@@ -113,7 +113,7 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
             plot_style::points(plot, Series::Down, "downwards", &ways[1]);
             plot_style::points(plot, Series::Up, "upwards", &ways[0]);
             for (name, place) in &marks {
-                plot_style::labelled_place(plot, name, *place, Series::Stable);
+                plot_style::special_point(plot, name, (*place).into());
             }
         });
     orbit_diagram::go_where_clicked(context, &response, study);

@@ -2,6 +2,7 @@
 
 use egui::{RichText, Ui};
 
+use super::controls::FREQUENCIES;
 use super::{Context, explore, verdict};
 use crate::app::command::Command;
 use crate::app::view::{Output, Panel, SweepView};
@@ -66,20 +67,28 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     let mut sweep = context.view.sweep;
     let wide = ui.available_width() >= WIDE;
     Card::new("").hugging().show(ui, |ui| {
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 8.0;
-            label(ui, "Sweep");
-            if chips(ui, "Swept parameter", &mut sweep.parameter, &PARAMETERS) {
-                sweep.range = None;
-            }
-            label(ui, "values");
-            chips(ui, "Number of values", &mut sweep.count, &COUNTS);
-            label(ui, "periods dropped + kept");
-            chips(ui, "Periods", &mut sweep.dwell, &HOLDS);
-            label(ui, "curves of");
-            let outputs = [(Output::Voltage, "voltage"), (Output::Power, "power"), (Output::Tip, "tip")];
-            chips(ui, "Response of", &mut sweep.output, &outputs);
-        });
+        let mut rows = |ui: &mut Ui| {
+            choice(ui, "sweep", |ui| {
+                if chips(ui, "Swept parameter", &mut sweep.parameter, &PARAMETERS) {
+                    sweep.range = None;
+                }
+            });
+            choice(ui, "values", |ui| {
+                chips(ui, "Number of values", &mut sweep.count, &COUNTS);
+            });
+            choice(ui, "periods dropped + kept", |ui| {
+                chips(ui, "Periods", &mut sweep.dwell, &HOLDS);
+            });
+            choice(ui, "curves of", |ui| {
+                let outputs = [(Output::Voltage, "voltage"), (Output::Power, "power"), (Output::Tip, "tip")];
+                chips(ui, "Response of", &mut sweep.output, &outputs);
+            });
+        };
+        if wide {
+            ui.horizontal_wrapped(|ui| rows(ui));
+        } else {
+            rows(ui);
+        }
         ui.add_space(4.0);
         let range = questions::sweep_range(context.view, context.session);
         if wide {
@@ -95,7 +104,10 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// The sliders for both ends of the range, one a column.
 fn ends(columns: &mut [Ui], sweep: &mut SweepView, range: (f64, f64)) {
-    let (minimum, maximum) = sweep.parameter.range();
+    let (minimum, maximum) = match sweep.parameter {
+        Parameter::Omega => FREQUENCIES,
+        parameter => parameter.range(),
+    };
     let (_, symbol) = title(sweep.parameter);
     let (mut low, mut high) = range;
     let logarithmic = minimum >= 0.0 && sweep.parameter != Parameter::Omega;
@@ -111,7 +123,12 @@ fn ends(columns: &mut [Ui], sweep: &mut SweepView, range: (f64, f64)) {
     }
 }
 
-fn label(ui: &mut Ui, text: &str) {
+/// A choice after what it is for.
+fn choice(ui: &mut Ui, name: &str, choices: impl FnOnce(&mut Ui)) {
     let colour = theme::tokens(ui).text_weak;
-    ui.label(RichText::new(text).small().color(colour));
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 8.0;
+        ui.label(RichText::new(name).small().color(colour));
+        choices(ui);
+    });
 }

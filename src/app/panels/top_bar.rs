@@ -12,6 +12,10 @@ use crate::app::{fonts, theme};
 /// Width below which the switches move under the tabs.
 const NARROW: f32 = 560.0;
 
+/// The tabs can be pushed aside where there is no room for all of them; a bar would hide them.
+const SCROLL_BAR: egui::scroll_area::ScrollBarVisibility =
+    egui::scroll_area::ScrollBarVisibility::AlwaysHidden;
+
 /// Draws the bar.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let narrow = ui.available_width() < NARROW;
@@ -19,12 +23,14 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         ui.vertical(|ui| {
             ui.horizontal(|ui| {
                 title(ui);
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| switches(context, ui));
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    switches(context, ui);
+                    status(context, ui);
+                });
             });
-            ui.horizontal(|ui| {
-                choose_tab(context, ui);
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| status(context, ui));
-            });
+            egui::ScrollArea::horizontal()
+                .scroll_bar_visibility(SCROLL_BAR)
+                .show(ui, |ui| choose_tab(context, ui));
         });
     } else {
         ui.horizontal(|ui| {

@@ -223,7 +223,7 @@ fn forced_state(system: &ReducedSystem) -> Result<Vec<f64>, OrbitError> {
     impl ForceVisitor for Grow<'_> {
         type Output = Result<Vec<f64>, OrbitError>;
         fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-            let mut solver = OrbitSolver::new(self.0, force)?;
+            let mut solver = OrbitSolver::new(self.0, force);
             let rest = Forced::at_rest(&mut solver)?;
             let beta = self.0.parameters.beta;
             let there = rest.march_to(&mut solver, beta)?;

@@ -1,5 +1,6 @@
 //! Studies: questions too large for a frame, cut into pieces of [`Work`] that may be done anywhere and in any order.
 
+use super::parallel;
 use super::work::{Finding, Work};
 
 pub mod answers;
@@ -46,7 +47,8 @@ pub fn complete(study: &mut impl Study) {
         if pieces.is_empty() {
             return;
         }
-        for (ticket, finding) in carry_out_all(&pieces) {
+        let found = parallel::map(&pieces, |(ticket, work)| (*ticket, work.carry_out()));
+        for (ticket, finding) in found {
             study.take(ticket, finding);
         }
     }
@@ -54,16 +56,3 @@ pub fn complete(study: &mut impl Study) {
 
 /// Pieces handed out before any finding is taken, many for each core.
 const BATCH: usize = 256;
-
-type Found = (usize, Result<Finding, String>);
-
-#[cfg(not(target_arch = "wasm32"))]
-fn carry_out_all(pieces: &[(usize, Work)]) -> Vec<Found> {
-    use rayon::prelude::*;
-    pieces.par_iter().map(|(ticket, work)| (*ticket, work.carry_out())).collect()
-}
-
-#[cfg(target_arch = "wasm32")]
-fn carry_out_all(pieces: &[(usize, Work)]) -> Vec<Found> {
-    pieces.iter().map(|(ticket, work)| (*ticket, work.carry_out())).collect()
-}

@@ -1,0 +1,102 @@
+//! Boundary requests: the lowest unstable excitation amplitude over frequency, by three theories.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Answer, count};
+use crate::dynamics::{OrbitError, critical_excitation};
+use crate::jobs::{RequestError, parallel};
+use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem};
+use crate::scenario::ModelChoice;
+use crate::theory::{CoupledModes, Published, Resonance, TheoryError};
+
+/// Most frequencies of a request: closed formulas take microseconds, Floquet multipliers up to a second.
+const MOST_CLOSED: usize = 100_000;
+const MOST_FLOQUET: usize = 2_000;
+/// Allowed limits of the search by multipliers: below the lowest, nothing could be told from nothing.
+const LIMITS: (f64, f64) = (1e-6, Parameter::Beta.range().1);
+
+/// A stability boundary.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoundaryRequest {
+    /// The ten numbers; beta and omega play no role.
+    #[serde(default)]
+    pub parameters: ParameterSet,
+    /// Modes and force law; the closed theories use the quadratic term.
+    #[serde(default)]
+    pub model: ModelChoice,
+    /// Which resonance.
+    pub resonance: Resonance,
+    /// Which theory.
+    pub theory: Theory,
+    /// Excitation frequencies (dimensionless).
+    pub omega: Vec<f64>,
+    /// Highest amplitude looked at by the theory of Floquet.
+    #[serde(default = "BoundaryRequest::default_limit")]
+    pub limit: f64,
+}
+
+/// The theories that give a boundary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Theory {
+    /// Eqs. (57), (72), (81) as printed.
+    Published,
+    /// The coupled-mode boundary, which keeps the circuit.
+    Coupled,
+    /// The forced motion's Floquet multipliers, with nothing left out.
+    Floquet,
+}
+
+/// A boundary.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BoundaryAnswer {
+    /// Lowest unstable beta at each omega (dimensionless); null where there is none.
+    pub beta: Vec<Option<f64>>,
+}
+
+impl BoundaryRequest {
+    const fn default_limit() -> f64 {
+        0.04
+    }
+
+    /// Computes the answer.
+    ///
+    /// # Errors
+    /// [`RequestError`] when a number is out of range or a theory has no answer.
+    pub fn answer(&self) -> Result<Answer, RequestError> {
+        let most = if self.theory == Theory::Floquet { MOST_FLOQUET } else { MOST_CLOSED };
+        count("numbers in omega", self.omega.len(), (0, most))?;
+        for omega in &self.omega {
+            ModelError::check("omega", *omega, Parameter::Omega.range(), "")?;
+        }
+        ModelError::check("limit", self.limit, LIMITS, "")?;
+        let system = self.model.system(self.parameters)?;
+        let (omegas, resonance) = (self.omega.iter(), self.resonance);
+        let beta = match self.theory {
+            Theory::Published => {
+                let theory = Published::new(&system)?;
+                omegas.map(|omega| theory.boundary(resonance, *omega)).collect()
+            }
+            Theory::Coupled => {
+                let theory = CoupledModes::new(&system)?;
+                omegas.map(|omega| theory.boundary(resonance, *omega)).collect()
+            }
+            Theory::Floquet => self.by_multipliers(&system)?,
+        };
+        Ok(Answer::Boundary(BoundaryAnswer { beta }))
+    }
+
+    /// Where the forced motion loses its stability in the way of the resonance; other ways are passed.
+    fn by_multipliers(&self, system: &ReducedSystem) -> Result<Vec<Option<f64>>, RequestError> {
+        let (found, needed) = (system.modes.len(), self.resonance.pair().1 + 1);
+        if found < needed {
+            return Err(TheoryError::TooFewModes { found }.into());
+        }
+        let only = Some(self.resonance.instability());
+        let found = parallel::map(&self.omega, |omega| {
+            critical_excitation(system, *omega, self.limit, only).map(|critical| critical.beta())
+        });
+        Ok(found.into_iter().collect::<Result<_, OrbitError>>()?)
+    }
+}
