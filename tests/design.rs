@@ -13,6 +13,7 @@ use harvester_lab::jobs::motions::{Coordinate, at_place};
 use harvester_lab::jobs::study::find::FindStudy;
 use harvester_lab::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
 use harvester_lab::jobs::study::load::{LoadQuestion, LoadStudy};
+use harvester_lab::jobs::study::map::DesignMap;
 use harvester_lab::jobs::study::motion_chart::{MotionChart, MotionQuestion};
 use harvester_lab::jobs::study::sweep::Direction;
 use harvester_lab::jobs::study::table::Table;
@@ -269,5 +270,32 @@ fn a_chart_in_si_units_is_the_chart_of_the_numbers() -> TestResult {
     complete(&mut same);
     let [a, b] = [chart.cell(1, 2), same.cell(0, 0)].map(|cell| cell.flatten().map(|cell| cell.v_rms));
     assert!((a.ok_or("a cell")? / b.ok_or("a cell")? - 1.0).abs() < 1e-9, "{a:?} {b:?}");
+    Ok(())
+}
+
+#[test]
+fn a_map_is_the_bench_at_every_place_and_marks_what_is_not_allowed() -> TestResult {
+    let limits = Limits { voltage: Some((8.0, 9.0)), ..Default::default() };
+    let question = question(Objective::PowerPerG2, limits);
+    let mut map = DesignMap::new(question.clone(), (7, 5))?;
+    complete(&mut map);
+    assert!(map.finished() && map.failure().is_none());
+    let coordinates = [Dimension::Frequency, Dimension::Resistance].map(Coordinate::Dimension);
+    let mut forbidden = 0;
+    for (column, row) in [(0, 0), (3, 2), (6, 4), (2, 4)] {
+        let found = map.cell((column, row)).ok_or("known")?;
+        let scenario = at_place(&question.scenario, &coordinates, &map.values((column, row)))?;
+        let harvest = operating(&scenario)?.reached.harvest;
+        let (a, b) = (found.value, harvest.and_then(|harvest| harvest.power_per_g2));
+        assert!((a.ok_or("lasts")? / b.ok_or("lasts")? - 1.0).abs() < 1e-6, "{a:?} {b:?}");
+        let (system, _) = scenario.validate()?;
+        let allowed = harvest.is_some_and(|harvest| limits.allow(&harvest.demand, Plant::gap(&system)));
+        assert_eq!(found.violation == 0.0, allowed);
+        forbidden += usize::from(!allowed);
+    }
+    assert!((1..4).contains(&forbidden), "{forbidden}");
+    let (place, best) = map.best().ok_or("one is allowed")?;
+    assert!(best.violation == 0.0 && map.cell(place) == Some(&best));
+    assert!(DesignMap::new(FindQuestion { variables: Vec::new(), ..question }, (7, 5)).is_err());
     Ok(())
 }

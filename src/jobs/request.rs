@@ -105,7 +105,7 @@ pub enum Request {
     /// Which motions the starts of a plane lead to.
     Basin(BasinRequest),
     /// What a device delivers, bears and could be.
-    Design(DesignRequest),
+    Design(Box<DesignRequest>),
 }
 
 impl Request {
@@ -121,7 +121,7 @@ impl Request {
         };
         let task = fields.remove("task").unwrap_or(Value::Null);
         if let Some(request) = DesignRequest::read(task.as_str().unwrap_or_default(), &fields)? {
-            return Ok(Self::Design(request));
+            return Ok(Self::Design(Box::new(request)));
         }
         let fields = Value::Object(fields);
         match task.as_str() {

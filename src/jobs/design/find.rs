@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::band::{total, usable};
 use super::harvest::{Lasting, lasting};
-use super::materials::lowest;
+use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
+use crate::dynamics::Motion;
 use crate::dynamics::tongue::Window;
-use crate::dynamics::{Motion, trace_tongue};
 use crate::jobs::motions::{Coordinate, at_place};
 use crate::model::{Limits, ModelError};
 use crate::scenario::Scenario;
@@ -210,11 +210,8 @@ fn band(
 
 fn threshold(plant: &Plant, resonance: Resonance) -> Result<Evaluation, DesignError> {
     let Ok(system) = plant.system() else { return Ok(Evaluation::NOTHING) };
-    let window = Window::default();
-    let tip = match trace_tongue(&system, resonance, window) {
-        Ok(Some(tongue)) => lowest(&system, &tongue, resonance, window)?,
-        _ => None,
-    };
+    let limit = Window::default().limit;
+    let Ok(tip) = lowest_threshold(&system, resonance, limit) else { return Ok(Evaluation::NOTHING) };
     // The excitation plays no role, nor then do the limits of a motion.
     Ok(Evaluation { value: tip.map(|tip| tip.beta), violation: 0.0, motion: None })
 }

@@ -115,7 +115,7 @@ pub fn operating(scenario: &Scenario) -> Result<Operating, DesignError> {
     let (system, initial) = plant.scenario.validate()?;
     let bare = plant.without_magnets()?;
     let linear = Harvest::new(&plant, &bare, &linear_balance(&bare)?);
-    let forced = match ForcedMotion::of(&system)?.orbit {
+    let forced = match ForcedMotion::of(&system).ok().and_then(|forced| forced.orbit) {
         None => None,
         Some(orbit) => Balance::of(&system, &orbit.state, orbit.periods)?.map(|balance| Forced {
             harvest: Harvest::new(&plant, &system, &balance),

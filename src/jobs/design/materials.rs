@@ -34,7 +34,7 @@ pub fn with_ceramic(scenario: &Scenario, ceramic: Ceramic, mode: usize) -> Resul
     Parameters::new(changed.parameters)?;
     let mut device = changed.device()?;
     (device.ceramic, device.loss_tangent) = (Some(ceramic), ceramic.material().dissipation_factor);
-    changed.device = Some(device);
+    changed.set_base(device, changed.scaling)?;
     Ok(changed)
 }
 
@@ -104,6 +104,34 @@ pub fn material_row(
         reached: lasting(&plant, &system, &initial)?,
         voltage_limit: Limits::of(&scenario.base()).voltage,
     })
+}
+
+/// Half widths (dimensionless) of the windows in which the tip of a tongue is looked for: it is near the centre, and a
+/// whole tongue takes much longer.
+const SPANS: [f64; 3] = [0.03, 0.15, 0.6];
+
+/// The lowest excitation up to `limit` that makes the forced motion of `system` unstable in the way of `resonance`;
+/// `None` when there is none at its centre.
+///
+/// # Errors
+/// As [`trace_tongue`].
+pub fn lowest_threshold(
+    system: &ReducedSystem,
+    resonance: Resonance,
+    limit: f64,
+) -> Result<Option<TonguePoint>, DesignError> {
+    let mut best = None;
+    for span in SPANS {
+        let window = Window { span, limit };
+        let Some(tongue) = trace_tongue(system, resonance, window)? else { return Ok(None) };
+        best = lowest(system, &tongue, resonance, window)?;
+        let ends = [tongue.points.first(), tongue.points.last()];
+        let at_end = |tip: TonguePoint| ends.iter().flatten().any(|end| **end == tip);
+        if best.is_some_and(|tip| !at_end(tip)) {
+            break;
+        }
+    }
+    Ok(best)
 }
 
 /// The tip of a tongue, improved from its lowest point by the exact boundary between the neighbours.

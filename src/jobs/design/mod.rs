@@ -6,6 +6,7 @@ pub mod error;
 pub mod evolution;
 pub mod find;
 pub mod harvest;
+pub mod layout;
 pub mod linear;
 pub mod load;
 pub mod materials;

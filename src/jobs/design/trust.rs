@@ -3,11 +3,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::materials::lowest;
+use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
 use crate::dynamics::motion::Horizon;
 use crate::dynamics::tongue::Window;
-use crate::dynamics::{Motion, reach, trace_tongue};
+use crate::dynamics::{Motion, reach};
 use crate::model::force::Exact;
 use crate::model::{ForceLaw, MAX_MODES, ReducedSystem, RestForce};
 use crate::scenario::Scenario;
@@ -65,11 +65,7 @@ pub fn trust_entry(
     let plant = Plant::new(&scenario)?;
     let (system, initial) = plant.scenario.validate()?;
     if let Quantity::Threshold(resonance) = quantity {
-        let window = Window::default();
-        let tip = match trace_tongue(&system, resonance, window)? {
-            Some(tongue) => lowest(&system, &tongue, resonance, window)?,
-            None => None,
-        };
+        let tip = lowest_threshold(&system, resonance, Window::default().limit)?;
         return Ok(TrustEntry { modes, law, value: tip.map(|tip| tip.beta), motion: None });
     }
     let cell = reach(&system, &initial, Horizon::chart(scenario.t_end))?.cell();

@@ -9,6 +9,7 @@ pub mod curves;
 pub mod find;
 pub mod harvest;
 pub mod load;
+pub mod map;
 pub mod mosaic;
 pub mod motion_chart;
 pub mod multiplier_chart;

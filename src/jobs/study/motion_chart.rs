@@ -7,9 +7,9 @@ use super::mosaic::{Mosaic, Place};
 use crate::dynamics::motion::Cell;
 use crate::dynamics::signature::Signature;
 pub use crate::jobs::motions::Coordinate;
-use crate::jobs::motions::MotionPlane;
+use crate::jobs::motions::{MotionPlane, at_place};
 use crate::jobs::work::{Finding, Work};
-use crate::model::ModelError;
+use crate::model::{ModelError, Units};
 use crate::scenario::{END_TIME, Scenario};
 
 /// Columns and rows a chart may have.
@@ -59,6 +59,12 @@ impl MotionQuestion {
     /// The two coordinates of a cell.
     pub fn place(&self, (column, row): Place) -> [f64; 2] {
         [between(self.x.1, column, self.size.0), between(self.y.1, row, self.size.1)]
+    }
+
+    /// The SI units at a place, for watts and millimetres; `None` where there is no device.
+    pub fn units(&self, place: Place) -> Option<Units> {
+        let scenario = at_place(&self.scenario, &[self.x.0, self.y.0], &self.place(place)).ok()?;
+        Some(scenario.units())
     }
 
     fn plane(&self) -> MotionPlane {
