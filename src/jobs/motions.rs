@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::dynamics::signature::Signature;
 use crate::dynamics::{ESCAPE_DISPLACEMENT, Horizon, IntegrationError, reach};
 use crate::jobs::response::check_range;
-use crate::model::{ModelError, Parameter, ReducedSystem, state_dimension};
+use crate::model::{Dimension, ModelError, Parameter, ReducedSystem, state_dimension};
 use crate::scenario::Scenario;
 
 /// Largest modal velocity that a start may have (dimensionless): that of the fastest mode with the largest displacement.
@@ -19,6 +19,8 @@ const MOST_VOLTAGE: f64 = 1e6;
 pub enum Coordinate {
     /// One of the ten numbers.
     Parameter(Parameter),
+    /// A dimension of the device in SI units; the other dimensions are kept, and so the ten numbers follow.
+    Dimension(Dimension),
     /// A component of the state at t = 0: q_1..q_N, dq_1/dt..dq_N/dt, v by index from 0.
     Start(usize),
 }
@@ -28,6 +30,7 @@ impl Coordinate {
     pub fn name(self, modes: usize) -> String {
         match self {
             Self::Parameter(parameter) => parameter.field().to_owned(),
+            Self::Dimension(dimension) => dimension.field().to_owned(),
             Self::Start(i) if i < modes => format!("q{}", i + 1),
             Self::Start(i) if i < 2 * modes => format!("dq{}/dt", i + 1 - modes),
             Self::Start(_) => "v".to_owned(),
@@ -38,19 +41,30 @@ impl Coordinate {
     pub fn named(name: &str, modes: usize) -> Option<Self> {
         let starts = (0..state_dimension(modes)).map(Self::Start);
         let parameters = Parameter::ALL.into_iter().map(Self::Parameter);
-        starts.chain(parameters).find(|coordinate| coordinate.name(modes) == name)
+        let dimensions = Dimension::ALL.into_iter().map(Self::Dimension);
+        starts.chain(parameters).chain(dimensions).find(|coordinate| coordinate.name(modes) == name)
     }
 
-    /// Lowest and highest value on it: a parameter's own range, ten beam lengths for a displacement (where every motion
+    /// Lowest and highest value on it: a parameter's or a dimension's own range, ten beam lengths for a displacement (where every motion
     /// counts as escaped), and no less for velocities and voltage.
     pub fn limits(self, modes: usize) -> (f64, f64) {
         let most = match self {
             Self::Parameter(parameter) => return parameter.range(),
+            Self::Dimension(dimension) => return dimension.accepted(),
             Self::Start(i) if i < modes => ESCAPE_DISPLACEMENT,
             Self::Start(i) if i < 2 * modes => MOST_VELOCITY,
             Self::Start(_) => MOST_VOLTAGE,
         };
         (-most, most)
+    }
+
+    /// Its value in `scenario`; `None` where that has no device.
+    pub fn value(self, scenario: &Scenario) -> Option<f64> {
+        match self {
+            Self::Parameter(parameter) => Some(parameter.get(&scenario.parameters)),
+            Self::Dimension(dimension) => scenario.device().ok().map(|device| dimension.get(&device)),
+            Self::Start(i) => scenario.initial.as_ref().map_or(Some(0.0), |start| start.get(i).copied()),
+        }
     }
 
     /// Checks that a model of `modes` modes has it, and that `range` lies within its limits.
@@ -60,6 +74,12 @@ impl Coordinate {
     pub fn check(self, modes: usize, range: (f64, f64)) -> Result<(), ModelError> {
         match self {
             Self::Parameter(parameter) => check_range(parameter, range),
+            Self::Dimension(dimension) => {
+                dimension.check(range.0)?;
+                dimension.check(range.1)?;
+                let highest = self.limits(modes).1;
+                ModelError::check(dimension.field(), range.1, (range.0, highest), "").map(|_| ())
+            }
             Self::Start(value) => {
                 let maximum = state_dimension(modes) - 1;
                 if value > maximum {
@@ -76,6 +96,34 @@ impl Coordinate {
             }
         }
     }
+}
+
+/// `scenario` with each of the `coordinates` at its value of `values`, one after the other.
+///
+/// # Errors
+/// [`ModelError`] when there is no such device.
+pub fn at_place(
+    scenario: &Scenario,
+    coordinates: &[Coordinate],
+    values: &[f64],
+) -> Result<Scenario, ModelError> {
+    let mut scenario = scenario.clone();
+    for (coordinate, value) in coordinates.iter().zip(values) {
+        match *coordinate {
+            Coordinate::Parameter(parameter) => *parameter.get_mut(&mut scenario.parameters) = *value,
+            Coordinate::Dimension(dimension) => {
+                let mut device = scenario.device()?;
+                *dimension.get_mut(&mut device) = *value;
+                scenario.set_device(device, scenario.scaling)?;
+            }
+            Coordinate::Start(i) => {
+                let modes = scenario.model.modes;
+                coordinate.check(modes, (*value, *value))?;
+                scenario.initial.get_or_insert_with(|| vec![0.0; state_dimension(modes)])[i] = *value;
+            }
+        }
+    }
+    Ok(scenario)
 }
 
 /// The plane of two coordinates through the numbers and the start of a scenario.
@@ -110,9 +158,19 @@ impl MotionPlane {
     ) -> Result<Option<Signature>, MotionsError> {
         let mut set = self.scenario.parameters;
         let mut initial = start.to_vec();
-        for (coordinate, value) in [self.x, self.y].into_iter().zip(place) {
+        let sides = [self.x, self.y];
+        let in_si = sides.iter().any(|side| matches!(side, Coordinate::Dimension(_)));
+        if in_si {
+            // A sensible dimension may still make a number that the model does not take.
+            match at_place(&self.scenario, &sides, &place) {
+                Ok(scenario) => (set, initial) = (scenario.parameters, scenario.initial.unwrap_or(initial)),
+                Err(_) => return Ok(None),
+            }
+        }
+        for (coordinate, value) in sides.into_iter().zip(place).filter(|_| !in_si) {
             match coordinate {
                 Coordinate::Parameter(parameter) => *parameter.get_mut(&mut set) = value,
+                Coordinate::Dimension(_) => {}
                 Coordinate::Start(i) => {
                     coordinate.check(self.scenario.model.modes, (value, value))?;
                     initial[i] = value;
@@ -121,6 +179,7 @@ impl MotionPlane {
         }
         let system = match system.with_numbers(set) {
             Err(ModelError::PullIn { .. } | ModelError::Buckled { .. }) => return Ok(None),
+            Err(_) if in_si => return Ok(None),
             system => system?,
         };
         let found = reach(&system, &initial, Horizon::chart(self.t_end))

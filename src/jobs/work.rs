@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::design::{DesignFinding, DesignWork};
 use super::inspection::{Inspection, inspect};
 use super::motions::MotionPlane;
 use super::response::{ResponseCurve, response};
@@ -84,6 +85,8 @@ pub enum Work {
         /// The line.
         line: Line,
     },
+    /// A piece of the design bench.
+    Design(DesignWork),
     /// A curve of bifurcations.
     Trace {
         /// The device and its other numbers.
@@ -120,6 +123,8 @@ pub enum Finding {
     Inspection(Box<Inspection>),
     /// The bifurcations on a line.
     Starts(Vec<Start>),
+    /// What the design bench asked for.
+    Design(DesignFinding),
     /// A whole curve.
     Curve(Box<Curve>),
 }
@@ -169,6 +174,7 @@ impl Work {
             Self::Inspect { scenario } => {
                 inspect(scenario).map(|found| Finding::Inspection(Box::new(found))).map_err(sentence)
             }
+            Self::Design(work) => work.carry_out().map(Finding::Design).map_err(sentence),
             Self::Line { scenario, plane, line } => {
                 let (system, _) = scenario.validate().map_err(sentence)?;
                 bifurcations_along_line(&system, plane, *line, false).map(Finding::Starts).map_err(sentence)

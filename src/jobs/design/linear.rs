@@ -9,6 +9,8 @@ use crate::theory::{LinearResponse, spectrum::eigenvalues};
 
 /// Distances from a resonance, in its own widths, at which a curve has points.
 const ABOUT_RESONANCE: [f64; 13] = [0.0, 0.125, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 13.0, 20.0];
+/// Equally spaced points among which a peak is looked for, beside those about the resonances.
+const PEAK_POINTS: usize = 64;
 /// Golden sections that locate a peak.
 const SECTIONS: usize = 60;
 /// Halvings that locate a border of a band.
@@ -75,10 +77,7 @@ pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<L
     // An undamped device has no steady state at its resonance.
     let power = |omega: f64| at(omega).map_or(f64::INFINITY, |point| point[2]);
     let omegas = frequencies(&system, window, count)?;
-    let highest =
-        (0..omegas.len()).max_by(|i, j| power(omegas[*i]).total_cmp(&power(omegas[*j]))).unwrap_or(0);
-    let around = (omegas[highest.saturating_sub(1)], omegas[(highest + 1).min(omegas.len() - 1)]);
-    let place = highest_place(power, around);
+    let place = peak(power, &omegas);
     let half = 0.5 * power(place);
     let below = omegas.iter().rev().copied().find(|omega| *omega < place && power(*omega) < half);
     let above = omegas.iter().copied().find(|omega| *omega > place && power(*omega) < half);
@@ -91,6 +90,30 @@ pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<L
             to: above.map_or(units.hertz(window.1), border),
         },
     })
+}
+
+/// Where the linear device of `plant` gives most for `omega` (dimensionless) in `window`, and how much (W).
+///
+/// # Errors
+/// [`DesignError`].
+pub fn linear_peak(plant: &Plant, window: (f64, f64)) -> Result<(f64, f64), DesignError> {
+    let system = plant.without_magnets()?;
+    let beta = system.parameters.beta;
+    let power = |omega: f64| {
+        let response = system.with_excitation(beta, omega).ok().and_then(|at| LinearResponse::new(&at).ok());
+        let square = |response: LinearResponse| 0.5 * response.voltage.norm_sqr();
+        response.map_or(f64::INFINITY, |response| plant.units.watts(plant.load * square(response)))
+    };
+    let place = peak(power, &frequencies(&system, window, PEAK_POINTS)?);
+    Ok((place, power(place)))
+}
+
+/// Where `power` is highest, near the best of the ascending `omegas`.
+fn peak(power: impl Fn(f64) -> f64, omegas: &[f64]) -> f64 {
+    let values: Vec<f64> = omegas.iter().map(|omega| power(*omega)).collect();
+    let highest = (0..values.len()).max_by(|i, j| values[*i].total_cmp(&values[*j])).unwrap_or(0);
+    let around = (omegas[highest.saturating_sub(1)], omegas[(highest + 1).min(omegas.len() - 1)]);
+    highest_place(power, around, SECTIONS)
 }
 
 /// Equally spaced frequencies of the window, and more about the resonances of `system`.
@@ -109,12 +132,12 @@ fn frequencies(system: &ReducedSystem, window: (f64, f64), count: usize) -> Resu
     Ok(omegas)
 }
 
-/// Where `f` is highest between the ends of a bracket that holds one peak, by golden sections.
-pub(super) fn highest_place(f: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> f64 {
+/// Where `f` is highest between the ends of a bracket that holds one peak, by as many golden sections.
+pub(super) fn highest_place(f: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64), sections: usize) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut a, mut b) = (high - golden * (high - low), low + golden * (high - low));
     let (mut at_a, mut at_b) = (f(a), f(b));
-    for _ in 0..SECTIONS {
+    for _ in 0..sections {
         if at_a < at_b {
             (low, a, at_a) = (a, b, at_b);
             b = low + golden * (high - low);

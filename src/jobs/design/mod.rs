@@ -3,11 +3,18 @@
 
 pub mod band;
 pub mod error;
+pub mod evolution;
+pub mod find;
 pub mod harvest;
 pub mod linear;
+pub mod load;
+pub mod materials;
 pub mod plant;
+pub mod trust;
+pub mod work;
 
 pub use band::Interval;
 pub use error::DesignError;
 pub use harvest::{Harvest, Operating, operating};
 pub use plant::Plant;
+pub use work::{DesignFinding, DesignWork};

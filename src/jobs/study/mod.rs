@@ -5,7 +5,11 @@ use super::work::{Finding, Work};
 
 pub mod answers;
 pub mod basin;
+pub mod batch;
 pub mod curves;
+pub mod find;
+pub mod harvest;
+pub mod load;
 pub mod mosaic;
 pub mod motion_chart;
 pub mod multiplier_chart;

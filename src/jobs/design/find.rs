@@ -1,0 +1,226 @@
+//! A design question for an optimiser: what to change within which ranges, what to make large, within which limits; and
+//! the evaluation of one candidate.
+
+use serde::{Deserialize, Serialize};
+
+use super::band::{total, usable};
+use super::materials::lowest;
+use super::{DesignError, Plant};
+use crate::dynamics::motion::{Cell, Horizon};
+use crate::dynamics::tongue::Window;
+use crate::dynamics::{Motion, reach, trace_tongue};
+use crate::jobs::motions::{Coordinate, at_place};
+use crate::model::{Limits, ModelError};
+use crate::scenario::Scenario;
+use crate::theory::Resonance;
+
+/// Violation of a candidate without any motion to judge: worse than any that has one.
+const NO_MOTION: f64 = 1e3;
+/// Numbers of frequencies of a band.
+const BAND_COUNTS: (usize, usize) = (2, 64);
+
+/// What is changed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Variable {
+    /// Which number or dimension.
+    pub coordinate: Coordinate,
+    /// Lowest and highest value.
+    pub range: (f64, f64),
+    /// Whether it is varied on a logarithmic scale; needs positive values.
+    #[serde(default)]
+    pub logarithmic: bool,
+}
+
+impl Variable {
+    /// The value at `share` (0 to 1) of the range.
+    pub fn at(&self, share: f64) -> f64 {
+        let (low, high) = self.range;
+        // The ends themselves are kept to the last digit.
+        match share {
+            share if share <= 0.0 => low,
+            share if share >= 1.0 => high,
+            share if self.logarithmic => low * (high / low).powf(share),
+            share => low + share * (high - low),
+        }
+    }
+}
+
+/// What is to be good.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Objective {
+    /// Mean power of the motion reached (W).
+    Power,
+    /// The same over the square of the base's acceleration (W/g^2).
+    PowerPerG2,
+    /// Root mean square of its voltage (V).
+    Voltage,
+    /// Width (Hz) in which at least `least` (W) is reached from the start, of `count` frequencies from `from` to `to`
+    /// (Hz).
+    Band {
+        /// Power (W).
+        least: f64,
+        /// Lowest frequency (Hz).
+        from: f64,
+        /// Highest frequency (Hz).
+        to: f64,
+        /// Number of frequencies, 2 to 64.
+        count: usize,
+    },
+    /// Lowest beta of a resonance's tongue, the lower the better (dimensionless).
+    Threshold(Resonance),
+}
+
+/// The question.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FindQuestion {
+    /// The device and everything that is not varied.
+    pub scenario: Scenario,
+    /// What is varied.
+    pub variables: Vec<Variable>,
+    /// What is to be good.
+    pub objective: Objective,
+    /// What must be kept.
+    pub limits: Limits,
+}
+
+/// Largest number of variables.
+const MOST_VARIABLES: usize = 8;
+
+impl FindQuestion {
+    /// Checks ranges and limits.
+    ///
+    /// # Errors
+    /// [`ModelError`] naming what is out of range.
+    pub fn validate(&self) -> Result<(), ModelError> {
+        self.scenario.validate()?;
+        let (value, minimum, maximum) = (self.variables.len(), 1, MOST_VARIABLES);
+        if !(minimum..=maximum).contains(&value) {
+            return Err(ModelError::Count { field: "variables", value, minimum, maximum });
+        }
+        let modes = self.scenario.model.modes;
+        for (i, Variable { coordinate, range, logarithmic }) in self.variables.iter().enumerate() {
+            coordinate.check(modes, *range)?;
+            if *logarithmic {
+                let most = coordinate.limits(modes).1;
+                ModelError::check(&coordinate.name(modes), range.0, (f64::MIN_POSITIVE, most), "")?;
+            }
+            if self.variables[..i].iter().any(|other| other.coordinate == *coordinate) {
+                return Err(ModelError::SameSides { field: coordinate.name(modes) });
+            }
+        }
+        if let Objective::Band { least, from, to, count } = self.objective {
+            ModelError::check("least", least, (0.0, 1e6), " W")?;
+            ModelError::check("from", from, (1e-6, 1e9), " Hz")?;
+            ModelError::check("to", to, (from, 1e9), " Hz")?;
+            let (minimum, maximum) = BAND_COUNTS;
+            if !(minimum..=maximum).contains(&count) {
+                return Err(ModelError::Count { field: "count", value: count, minimum, maximum });
+            }
+        }
+        let positive = (1e-12, 1e12);
+        ModelError::check("limits.gap", self.limits.gap, (1e-12, 1.0), "")?;
+        ModelError::check("limits.deflection", self.limits.deflection, positive, "")?;
+        ModelError::check("limits.slope", self.limits.slope, positive, "").map(|_| ())
+    }
+}
+
+/// What is known of a candidate.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Evaluation {
+    /// The objective in its unit; `None` without a device or a lasting motion.
+    pub value: Option<f64>,
+    /// By how much limits are violated, the parts beyond each summed (dimensionless); 0 when all are kept.
+    pub violation: f64,
+    /// The motion reached at the scenario's own frequency, where it was asked for.
+    pub motion: Option<Motion>,
+}
+
+impl Evaluation {
+    const NOTHING: Self = Self { value: None, violation: NO_MOTION, motion: None };
+
+    /// What the optimiser compares, larger is better: kept limits before violated ones, then the objective, or the
+    /// smaller violation.
+    pub fn rank(&self, objective: &Objective) -> (f64, f64) {
+        let sign = if matches!(objective, Objective::Threshold(_)) { -1.0 } else { 1.0 };
+        (-self.violation, self.value.map_or(f64::NEG_INFINITY, |value| sign * value))
+    }
+}
+
+/// Evaluates one candidate, a value for each variable of `question`. The slope is not among the limits here.
+///
+/// # Errors
+/// [`DesignError`] when the question itself cannot be asked; a candidate without a device, or whose motion cannot be
+/// followed, is an answer.
+pub fn evaluate(question: &FindQuestion, values: &[f64]) -> Result<Evaluation, DesignError> {
+    let coordinates: Vec<_> = question.variables.iter().map(|variable| variable.coordinate).collect();
+    let Ok(scenario) = at_place(&question.scenario, &coordinates, values) else {
+        return Ok(Evaluation::NOTHING);
+    };
+    let Ok(plant) = Plant::new(&scenario) else { return Ok(Evaluation::NOTHING) };
+    match question.objective {
+        Objective::Band { least, from, to, count } => band(question, &plant, least, (from, to), count),
+        Objective::Threshold(resonance) => threshold(&plant, resonance),
+        Objective::Power | Objective::PowerPerG2 | Objective::Voltage => {
+            let p = plant.scenario.parameters;
+            let Some((cell, violation)) = cell_at(question, &plant, p.omega) else {
+                return Ok(Evaluation::NOTHING);
+            };
+            let acceleration = plant.units.acceleration(p.beta, p.omega);
+            let power = plant.watts(cell.v_rms);
+            let value = match question.objective {
+                Objective::Voltage => Some(cell.v_rms),
+                Objective::PowerPerG2 => (acceleration > 0.0).then(|| power / (acceleration * acceleration)),
+                _ => Some(power),
+            };
+            let value = value.filter(|_| cell.demand().is_some());
+            Ok(Evaluation { value, violation, motion: Some(cell.motion) })
+        }
+    }
+}
+
+/// The motion reached at a frequency and how much it violates; `None` when there is none to be had.
+fn cell_at(question: &FindQuestion, plant: &Plant, omega: f64) -> Option<(Cell, f64)> {
+    let mut scenario = plant.scenario.clone();
+    scenario.parameters.omega = omega;
+    let (system, initial) = scenario.validate().ok()?;
+    let cell = reach(&system, &initial, Horizon::chart(scenario.t_end)).ok()?.cell();
+    let violation = match cell.demand() {
+        None => NO_MOTION,
+        Some(demand) => {
+            let checks = question.limits.checks(&demand, Plant::gap(&system));
+            checks.iter().map(|check| (-check.margin).max(0.0)).sum()
+        }
+    };
+    Some((cell, violation))
+}
+
+fn band(
+    question: &FindQuestion,
+    plant: &Plant,
+    least: f64,
+    (from, to): (f64, f64),
+    count: usize,
+) -> Result<Evaluation, DesignError> {
+    let (mut curve, mut violation) = (Vec::with_capacity(count), 0.0_f64);
+    for i in 0..count {
+        let frequency = from + (to - from) * i as f64 / (count - 1) as f64;
+        let Some((cell, violated)) = cell_at(question, plant, plant.units.omega(frequency)) else {
+            return Ok(Evaluation::NOTHING);
+        };
+        violation = violation.max(violated);
+        curve.push([frequency, plant.watts(cell.v_rms)]);
+    }
+    Ok(Evaluation { value: Some(total(&usable(&[curve], least))), violation, motion: None })
+}
+
+fn threshold(plant: &Plant, resonance: Resonance) -> Result<Evaluation, DesignError> {
+    let Ok(system) = plant.system() else { return Ok(Evaluation::NOTHING) };
+    let window = Window::default();
+    let tip = match trace_tongue(&system, resonance, window) {
+        Ok(Some(tongue)) => lowest(&system, &tongue, resonance, window)?,
+        _ => None,
+    };
+    // The excitation plays no role, nor then do the limits of a motion.
+    Ok(Evaluation { value: tip.map(|tip| tip.beta), violation: 0.0, motion: None })
+}

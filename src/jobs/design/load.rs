@@ -1,0 +1,188 @@
+//! Power against the load: the linear device in closed form, the forced motion and the motion reached, carried from load
+//! to load, and the best that each device gives within a window of frequencies.
+
+use serde::{Deserialize, Serialize};
+
+use super::linear::linear_peak;
+use super::{DesignError, Plant};
+use crate::dynamics::motion::{Cell, Horizon};
+use crate::dynamics::orbit::Measures;
+use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError, reach};
+use crate::jobs::response::response;
+use crate::model::{ModelError, Parameter, ReducedSystem};
+use crate::scenario::Scenario;
+use crate::theory::{Source, TheoryError};
+
+/// A motion under one load.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LoadPoint {
+    /// Load resistance (ohm).
+    pub resistance: f64,
+    /// Root mean square of the voltage (V).
+    pub v_rms: f64,
+    /// Largest |v| (V).
+    pub v_peak: f64,
+    /// Mean power in the load (W).
+    pub power: f64,
+    /// Lowest and highest tip displacement (mm).
+    pub tip: (f64, f64),
+    /// Its class; unstable forced motions have period 1 as well.
+    pub motion: Motion,
+    /// Whether it attracts.
+    pub stable: bool,
+}
+
+impl LoadPoint {
+    fn new(plant: &Plant, motion: Motion, stable: bool, measures: &Measures) -> Self {
+        let Measures { v_rms, v_peak, tip_min, tip_max, .. } = *measures;
+        let tip = (plant.units.millimetres(tip_min), plant.units.millimetres(tip_max));
+        Self { resistance: plant.resistance(), v_rms, v_peak, power: plant.watts(v_rms), tip, motion, stable }
+    }
+
+    fn of_cell(plant: &Plant, cell: &Cell) -> Self {
+        let Cell { motion, v_rms, power, tip: (tip_min, tip_max), v_peak } = *cell;
+        let measures = Measures { v_rms, power, tip_min, tip_max, v_peak };
+        let stable = !matches!(motion, Motion::Escape { .. } | Motion::Contact { .. });
+        Self::new(plant, motion, stable, &measures)
+    }
+}
+
+/// The linear device of `scenario` at its own frequency: power (W) at each of the `resistances` (ohm), and the best
+/// load (ohm) with its power (W), which is the magnitude of the device's own impedance.
+///
+/// # Errors
+/// [`DesignError`].
+pub fn linear_loads(
+    scenario: &Scenario,
+    resistances: &[f64],
+) -> Result<(Vec<[f64; 2]>, [f64; 2]), DesignError> {
+    let plant = Plant::new(scenario)?;
+    let source = Source::new(&plant.without_magnets()?)?;
+    let watts = |kappa: f64| plant.units.watts(source.power(kappa, plant.leakage));
+    let points = resistances.iter().map(|r| [*r, watts(plant.conductance(*r))]).collect();
+    let best = source.best_load(plant.leakage);
+    Ok((points, [1.0 / (plant.units.power * best), watts(best)]))
+}
+
+/// The forced motion of `scenario` under each of the `resistances` (ohm), each found from the one before; `None` where
+/// it is lost.
+///
+/// # Errors
+/// [`DesignError`] when a number is out of range.
+pub fn forced_loads(scenario: &Scenario, resistances: &[f64]) -> Result<Vec<Option<LoadPoint>>, DesignError> {
+    let plant = Plant::new(scenario)?;
+    let mut known: Option<Orbit> = None;
+    let mut points = Vec::with_capacity(resistances.len());
+    for resistance in resistances {
+        let plant = plant.with_resistance(*resistance)?;
+        let system = plant.system()?;
+        let near = known.as_ref().and_then(|orbit| Orbit::find(&system, Some(&orbit.state), 1).ok());
+        known = match near {
+            Some(orbit) => Some(orbit),
+            None => followed(&system)?,
+        };
+        let motion = Motion::Periodic { periods: 1 };
+        points.push(
+            known.as_ref().map(|orbit| LoadPoint::new(&plant, motion, orbit.stable(), &orbit.measures)),
+        );
+    }
+    Ok(points)
+}
+
+/// The forced motion from rest; `None` where it cannot be followed.
+fn followed(system: &ReducedSystem) -> Result<Option<Orbit>, DesignError> {
+    match ForcedMotion::of(system) {
+        Ok(forced) => Ok(forced.orbit),
+        Err(error @ OrbitError::Model(_)) => Err(error.into()),
+        Err(_) => Ok(None),
+    }
+}
+
+/// The motions reached under the `resistances` (ohm) one after the other, the last state carried over; the first
+/// starts from `state`, or from the scenario's own start, as does one after a motion that ended. Also the state to go on
+/// from.
+///
+/// So a doubled motion is followed as long as it attracts.
+///
+/// # Errors
+/// [`DesignError`].
+pub fn reached_loads(
+    scenario: &Scenario,
+    resistances: &[f64],
+    state: Option<&[f64]>,
+) -> Result<(Vec<LoadPoint>, Option<Vec<f64>>), DesignError> {
+    let plant = Plant::new(scenario)?;
+    let (_, start) = plant.scenario.validate()?;
+    let mut carried = state.map(<[f64]>::to_vec);
+    let mut points = Vec::with_capacity(resistances.len());
+    for resistance in resistances {
+        let plant = plant.with_resistance(*resistance)?;
+        let system = plant.system()?;
+        let from = carried.as_ref().unwrap_or(&start);
+        let reached = reach(&system, from, Horizon::chart(scenario.t_end))?;
+        let point = LoadPoint::of_cell(&plant, &reached.cell());
+        let orbit = reached.orbit.map(|orbit| orbit.state);
+        carried = point.stable.then(|| orbit.unwrap_or(reached.state));
+        points.push(point);
+    }
+    Ok((points, carried))
+}
+
+/// The best frequency under a load.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BestFrequency {
+    /// Load resistance (ohm).
+    pub resistance: f64,
+    /// Frequency (Hz) and power (W) of the linear device.
+    pub linear: [f64; 2],
+    /// Frequency (Hz) and power (W) of the stable periodic motion that gives most; `None` when there is none.
+    pub nonlinear: Option<[f64; 2]>,
+    /// Its period in excitation periods.
+    pub periods: usize,
+}
+
+/// The best frequency for a load of `resistance` (ohm) with omega in `window` (dimensionless): of the linear device, and
+/// of the stable periodic motions on the forced branch and its doubled ones, at the points that represent them.
+///
+/// # Errors
+/// [`DesignError`].
+pub fn best_frequency(
+    scenario: &Scenario,
+    resistance: f64,
+    window: (f64, f64),
+) -> Result<BestFrequency, DesignError> {
+    crate::jobs::response::check_range(Parameter::Omega, window)?;
+    let plant = Plant::new(scenario)?.with_resistance(resistance)?;
+    let (omega, power) = linear_peak(&plant, window)?;
+    if !power.is_finite() {
+        return Err(TheoryError::Undamped { omega }.into());
+    }
+    // Without any branch the device still has its linear one.
+    let curves = match response(&plant.scenario, Parameter::Omega, window) {
+        Err(error @ OrbitError::Model(ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
+            return Err(error.into());
+        }
+        curves => curves.unwrap_or_default(),
+    };
+    let points = curves.iter().flat_map(|curve| curve.points.iter().map(move |point| (curve.periods, point)));
+    let best = points
+        .filter(|(_, point)| point.multiplier < 1.0)
+        .max_by(|(_, a), (_, b)| a.v_rms.total_cmp(&b.v_rms));
+    Ok(BestFrequency {
+        resistance,
+        linear: [plant.units.hertz(omega), power],
+        nonlinear: best.map(|(_, point)| [plant.units.hertz(point.value), plant.watts(point.v_rms)]),
+        periods: best.map_or(1, |(periods, _)| periods),
+    })
+}
+
+/// Resistances (ohm) spread evenly over the decades from `low` to `high`, the ends included.
+pub fn decades(low: f64, high: f64, per_decade: usize) -> Vec<f64> {
+    let count = ((high / low).log10() * per_decade as f64).round().max(1.0) as usize;
+    (0..=count).map(|i| low * (high / low).powf(i as f64 / count as f64)).collect()
+}
+
+/// The highest of `points`, for a mark; `None` when all are missing.
+pub fn best(points: impl IntoIterator<Item = LoadPoint>) -> Option<LoadPoint> {
+    points.into_iter().filter(|point| point.stable).max_by(|a, b| a.power.total_cmp(&b.power))
+}

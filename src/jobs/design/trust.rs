@@ -1,0 +1,115 @@
+//! How far the model is to be trusted at the present amplitude: the force law's error there, and one quantity over
+//! numbers of modes and force laws.
+
+use serde::{Deserialize, Serialize};
+
+use super::materials::lowest;
+use super::{DesignError, Plant};
+use crate::dynamics::motion::Horizon;
+use crate::dynamics::tongue::Window;
+use crate::dynamics::{Motion, reach, trace_tongue};
+use crate::model::force::Exact;
+use crate::model::{ForceLaw, MAX_MODES, ReducedSystem, RestForce};
+use crate::scenario::Scenario;
+use crate::theory::Resonance;
+
+/// The force laws compared, from the paper's to the magnets' own.
+pub const LAWS: [ForceLaw; 4] =
+    [ForceLaw::Quadratic, ForceLaw::Taylor(3), ForceLaw::Taylor(5), ForceLaw::Exact];
+
+/// What is compared.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Root mean square of the voltage of the motion reached (V).
+    Voltage,
+    /// Mean power of the motion reached (W).
+    Power,
+    /// Largest |tip displacement| of the motion reached (mm).
+    Tip,
+    /// Lowest beta of a resonance's tongue (dimensionless).
+    Threshold(Resonance),
+}
+
+/// An entry of the table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TrustEntry {
+    /// Number of modes.
+    pub modes: usize,
+    /// Force law.
+    pub law: ForceLaw,
+    /// The quantity in its unit; `None` when the motion ended, or there is no tongue within the window.
+    pub value: Option<f64>,
+    /// Class of the motion reached, where one was asked for: values of different classes do not converge to each other.
+    pub motion: Option<Motion>,
+}
+
+/// The places of the table, modes by modes.
+pub fn places() -> impl Iterator<Item = (usize, ForceLaw)> {
+    (1..=MAX_MODES).flat_map(|modes| LAWS.into_iter().map(move |law| (modes, law)))
+}
+
+/// One entry: `quantity` of `scenario` with so many modes and this law.
+///
+/// # Errors
+/// [`DesignError`].
+pub fn trust_entry(
+    scenario: &Scenario,
+    modes: usize,
+    law: ForceLaw,
+    quantity: Quantity,
+) -> Result<TrustEntry, DesignError> {
+    let mut scenario = scenario.clone();
+    scenario.set_modes(modes);
+    scenario.model.force = law;
+    let plant = Plant::new(&scenario)?;
+    let (system, initial) = plant.scenario.validate()?;
+    if let Quantity::Threshold(resonance) = quantity {
+        let window = Window::default();
+        let tip = match trace_tongue(&system, resonance, window)? {
+            Some(tongue) => lowest(&system, &tongue, resonance, window)?,
+            None => None,
+        };
+        return Ok(TrustEntry { modes, law, value: tip.map(|tip| tip.beta), motion: None });
+    }
+    let cell = reach(&system, &initial, Horizon::chart(scenario.t_end))?.cell();
+    let value = cell.demand().map(|demand| match quantity {
+        Quantity::Power => plant.watts(cell.v_rms),
+        Quantity::Tip => plant.units.millimetres(demand.tip.1.max(-demand.tip.0)),
+        Quantity::Voltage | Quantity::Threshold(_) => cell.v_rms,
+    });
+    Ok(TrustEntry { modes, law, value, motion: Some(cell.motion) })
+}
+
+/// How far a force law is off.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LawError {
+    /// Tip displacement (beam lengths).
+    pub tip: f64,
+    /// R of the law over that of the magnets, less 1 (dimensionless); `None` where the magnets would have touched.
+    pub rest: Option<f64>,
+    /// The whole restoring force 3 s + c_1 s + R(s) of beam and magnets at the tip, in the same way: how much of it is
+    /// wrong.
+    pub whole: Option<f64>,
+}
+
+/// How far `law` is off for `system` when its tip is at `tip` (beam lengths from equilibrium).
+pub fn law_error(system: &ReducedSystem, law: ForceLaw, tip: f64) -> LawError {
+    /// Stiffness of the beam's tip, 3 E I / L^3.
+    const BEAM: f64 = 3.0;
+    if system.parameters.c0 == 0.0 || tip == 0.0 {
+        return LawError { tip, rest: Some(0.0), whole: Some(0.0) };
+    }
+    let exact = Exact::new(&system.magnet(), &system.equilibrium);
+    if exact.contact().is_some_and(|contact| tip <= contact) {
+        return LawError { tip, rest: None, whole: None };
+    }
+    let under = ReducedSystem { law, ..system.clone() };
+    let (taken, true_rest) = (under.rest_force().rest(tip), exact.rest(tip));
+    let linear = (BEAM + system.c1) * tip;
+    LawError {
+        tip,
+        rest: Some(taken / true_rest - 1.0),
+        whole: Some((taken - true_rest) / (linear + true_rest)),
+    }
+}

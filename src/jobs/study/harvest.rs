@@ -1,0 +1,269 @@
+//! What a device harvests over frequency: the linear device, the branches of periodic motions, what is reached from
+//! rest, and what a sweep up and down reaches; all at the scenario's own amplitude of the base.
+
+use serde::{Deserialize, Serialize};
+
+use super::Study;
+use super::sweep::{Direction, SweepQuestion, SweepStudy};
+use crate::dynamics::Motion;
+use crate::dynamics::sweep::{Dwell, SweepPoint};
+use crate::jobs::design::linear::{LinearCurve, linear_curve};
+use crate::jobs::design::{DesignError, Plant};
+use crate::jobs::motions::{Coordinate, MotionPlane};
+use crate::jobs::response::{ResponseCurve, ResponsePoint};
+use crate::jobs::work::{Finding, Work};
+use crate::model::Parameter;
+use crate::scenario::Scenario;
+
+/// Frequencies of a piece of work.
+const PER_PIECE: usize = 8;
+/// Tickets: the branches, the two ways of the sweep, then the starts from rest.
+const BRANCHES: usize = 0;
+const SWEEPS: usize = 1;
+const STARTS: usize = 3;
+
+/// What is asked.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HarvestQuestion {
+    /// The device; its omega and its start play no role, except that the dielectric loss is that at its omega.
+    pub scenario: Scenario,
+    /// Lowest and highest omega (dimensionless).
+    pub window: (f64, f64),
+    /// Number of frequencies of sweeps and starts, 2 to 2000.
+    pub count: usize,
+    /// How long a frequency is held in a sweep.
+    pub dwell: Dwell,
+}
+
+/// A point of a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct HarvestPoint {
+    /// Frequency (Hz).
+    pub frequency: f64,
+    /// Root mean square of the voltage (V).
+    pub v_rms: f64,
+    /// Largest |v| (V).
+    pub v_peak: f64,
+    /// Mean power in the load (W).
+    pub power: f64,
+    /// The same over the square of the base's acceleration there (W/g^2).
+    pub power_per_g2: f64,
+    /// Lowest and highest tip displacement (mm).
+    pub tip: (f64, f64),
+}
+
+impl HarvestPoint {
+    fn new(plant: &Plant, omega: f64, (v_rms, v_peak): (f64, f64), tip: (f64, f64)) -> Self {
+        let units = &plant.units;
+        let power = plant.watts(v_rms);
+        let acceleration = units.acceleration(plant.scenario.parameters.beta, omega);
+        Self {
+            frequency: units.hertz(omega),
+            v_rms,
+            v_peak,
+            power,
+            power_per_g2: if acceleration > 0.0 { power / (acceleration * acceleration) } else { 0.0 },
+            tip: (units.millimetres(tip.0), units.millimetres(tip.1)),
+        }
+    }
+
+    fn of_sweep(plant: &Plant, point: &SweepPoint) -> Self {
+        Self::new(plant, point.value, (point.v_rms, point.v_peak), point.tip)
+    }
+
+    fn of_branch(plant: &Plant, point: &ResponsePoint) -> Self {
+        Self::new(plant, point.value, (point.v_rms, point.v_peak), point.tip)
+    }
+}
+
+/// The curves being computed.
+#[derive(Debug, Clone)]
+pub struct HarvestStudy {
+    question: HarvestQuestion,
+    plant: Plant,
+    linear: LinearCurve,
+    branches: Option<Result<Vec<ResponseCurve>, String>>,
+    branches_handed: bool,
+    sweeps: SweepStudy,
+    starts: Vec<Option<Option<(Motion, HarvestPoint)>>>,
+    starts_handed: usize,
+    failure: Option<String>,
+}
+
+impl HarvestStudy {
+    /// The linear device is known at once, the rest is to be computed.
+    ///
+    /// # Errors
+    /// [`DesignError`] naming what is out of range.
+    pub fn new(question: HarvestQuestion) -> Result<Self, DesignError> {
+        let plant = Plant::new(&question.scenario)?;
+        let rest = Scenario { initial: None, ..plant.scenario.clone() };
+        let sweep = SweepQuestion {
+            scenario: rest,
+            parameter: Parameter::Omega,
+            range: question.window,
+            count: question.count,
+            dwell: question.dwell,
+        };
+        sweep.validate()?;
+        let linear = linear_curve(&plant, question.window, question.count)?;
+        Ok(Self {
+            linear,
+            branches: None,
+            branches_handed: false,
+            sweeps: SweepStudy::new(sweep, &[Direction::Up, Direction::Down]),
+            starts: vec![None; question.count],
+            starts_handed: 0,
+            plant,
+            question,
+            failure: None,
+        })
+    }
+
+    /// What is asked.
+    pub fn question(&self) -> &HarvestQuestion {
+        &self.question
+    }
+
+    /// The device without its magnets.
+    pub fn linear(&self) -> &LinearCurve {
+        &self.linear
+    }
+
+    /// The forced branch and the doubled ones; why there are none, or `None` until they are known.
+    pub fn branches(&self) -> Option<Result<&[ResponseCurve], &str>> {
+        self.branches.as_ref().map(|found| found.as_deref().map_err(String::as_str))
+    }
+
+    /// A branch's points in SI units, each with whether it is stable.
+    pub fn branch_points(&self, curve: &ResponseCurve) -> Vec<(HarvestPoint, bool)> {
+        let point =
+            |point: &ResponsePoint| (HarvestPoint::of_branch(&self.plant, point), point.multiplier < 1.0);
+        curve.points.iter().map(point).collect()
+    }
+
+    /// What the sweep has reached so far, in the order of its way; ended motions deliver nothing.
+    pub fn swept(&self, direction: Direction) -> Vec<HarvestPoint> {
+        let points = self.sweeps.points(direction).iter();
+        points.map(|point| HarvestPoint::of_sweep(&self.plant, point)).collect()
+    }
+
+    /// What is reached from rest, by ascending frequency; `None` until it is known, the inner one where the motion ends
+    /// or cannot be followed.
+    pub fn from_rest(&self) -> &[Option<Option<(Motion, HarvestPoint)>>] {
+        &self.starts
+    }
+
+    /// Why something is missing, if it is and will stay so.
+    pub fn failure(&self) -> Option<&str> {
+        self.failure.as_deref().or_else(|| self.sweeps.failure())
+    }
+
+    /// (Frequency, power) of the stable pieces of all branches, for the bands.
+    pub fn stable_power(&self) -> Vec<Vec<[f64; 2]>> {
+        let curves = self.branches().and_then(Result::ok).unwrap_or_default();
+        let points = curves.iter().map(|curve| self.branch_points(curve));
+        let mut pieces = Vec::new();
+        for points in points {
+            let runs = points.chunk_by(|a, b| a.1 == b.1).filter(|run| run[0].1);
+            pieces.extend(
+                runs.map(|run| run.iter().map(|(point, _)| [point.frequency, point.power]).collect()),
+            );
+        }
+        pieces
+    }
+
+    /// The same of a sweep.
+    pub fn swept_power(&self, direction: Direction) -> Vec<Vec<[f64; 2]>> {
+        vec![self.swept(direction).iter().map(|point| [point.frequency, point.power]).collect()]
+    }
+
+    /// The same of the starts from rest, cut where they end or are not known.
+    pub fn rest_power(&self) -> Vec<Vec<[f64; 2]>> {
+        let known =
+            |start: &Option<Option<(Motion, HarvestPoint)>>| start.as_ref().and_then(Option::as_ref).copied();
+        let runs = self.starts.chunk_by(|a, b| known(a).is_some() == known(b).is_some());
+        let curve = |run: &[_]| -> Vec<[f64; 2]> {
+            run.iter().filter_map(known).map(|(_, point)| [point.frequency, point.power]).collect()
+        };
+        runs.map(curve).filter(|curve| !curve.is_empty()).collect()
+    }
+
+    fn omega(&self, index: usize) -> f64 {
+        let (low, high) = self.question.window;
+        low + (high - low) * index as f64 / (self.question.count - 1) as f64
+    }
+
+    fn next_starts(&mut self) -> Option<(usize, Work)> {
+        let begin = self.starts_handed;
+        let end = (begin + PER_PIECE).min(self.starts.len());
+        if begin == end {
+            return None;
+        }
+        self.starts_handed = end;
+        let beta = self.plant.scenario.parameters.beta;
+        let plane = MotionPlane {
+            scenario: Scenario { initial: None, ..self.plant.scenario.clone() },
+            x: Coordinate::Parameter(Parameter::Omega),
+            y: Coordinate::Parameter(Parameter::Beta),
+            t_end: self.plant.scenario.t_end,
+        };
+        let places = (begin..end).map(|index| [self.omega(index), beta]).collect();
+        Some((STARTS + begin / PER_PIECE, Work::Motions { plane, places }))
+    }
+}
+
+impl Study for HarvestStudy {
+    fn next(&mut self) -> Option<(usize, Work)> {
+        if self.failure.is_some() {
+            return None;
+        }
+        if !std::mem::replace(&mut self.branches_handed, true) {
+            let (scenario, range) = (self.plant.scenario.clone(), self.question.window);
+            return Some((BRANCHES, Work::Response { scenario, parameter: Parameter::Omega, range }));
+        }
+        let sweep = self.sweeps.next().map(|(ticket, work)| (SWEEPS + ticket, work));
+        sweep.or_else(|| self.next_starts())
+    }
+
+    fn take(&mut self, ticket: usize, finding: Result<Finding, String>) {
+        match (ticket, finding) {
+            (BRANCHES, Ok(Finding::Response(curves))) => self.branches = Some(Ok(curves)),
+            (BRANCHES, Err(message)) => self.branches = Some(Err(message)),
+            (SWEEPS..STARTS, finding) => self.sweeps.take(ticket - SWEEPS, finding),
+            (_, Ok(Finding::Motions(found))) => {
+                let begin = (ticket - STARTS) * PER_PIECE;
+                for (index, signature) in (begin..).zip(found) {
+                    let cell =
+                        signature.map(|signature| signature.cell).filter(|cell| cell.demand().is_some());
+                    let point = |omega| {
+                        cell.map(|cell| {
+                            let volts = (cell.v_rms, cell.v_peak);
+                            (cell.motion, HarvestPoint::new(&self.plant, omega, volts, cell.tip))
+                        })
+                    };
+                    let found = point(self.omega(index));
+                    if let Some(place) = self.starts.get_mut(index) {
+                        *place = Some(found);
+                    }
+                }
+            }
+            (_, Ok(_)) => {
+                self.failure = Some("the computation returned something else than asked for".to_owned())
+            }
+            (_, Err(message)) => self.failure = Some(message),
+        }
+    }
+
+    fn progress(&self) -> f64 {
+        let branches = if self.branches.is_some() { 1.0 } else { 0.0 };
+        let starts = self.starts.iter().flatten().count() as f64 / self.starts.len().max(1) as f64;
+        0.2 * branches + 0.4 * self.sweeps.progress() + 0.4 * starts
+    }
+
+    fn finished(&self) -> bool {
+        let whole =
+            self.branches.is_some() && self.sweeps.finished() && self.starts.iter().all(Option::is_some);
+        self.failure.is_some() || whole
+    }
+}
