@@ -4,10 +4,12 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use thiserror::Error;
 
+use super::design::DesignError;
 use super::tasks::Answer;
 use super::tasks::basin::BasinRequest;
 use super::tasks::boundary::BoundaryRequest;
 use super::tasks::chart::ChartRequest;
+use super::tasks::design::DesignRequest;
 use super::tasks::modes::ModesRequest;
 use super::tasks::orbit::OrbitRequest;
 use super::tasks::simulate::SimulateRequest;
@@ -72,13 +74,16 @@ pub enum RequestError {
     /// There is no verdict.
     #[error(transparent)]
     Verdict(#[from] VerdictError),
+    /// The design bench has no answer.
+    #[error(transparent)]
+    Design(#[from] DesignError),
     /// A part of a large question failed.
     #[error("{0}")]
     Study(String),
 }
 
-const TASKS: &str =
-    "\"modes\", \"boundary\", \"simulate\", \"orbit\", \"chart\", \"sweep\", \"verdict\", \"basin\"";
+const TASKS: &str = "\"modes\", \"boundary\", \"simulate\", \"orbit\", \"chart\", \"sweep\", \"verdict\", \
+                     \"basin\", \"harvest\", \"load\", \"materials\", \"limits\", \"trust\", \"find\"";
 
 /// A checked question.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,6 +104,8 @@ pub enum Request {
     Verdict(VerdictRequest),
     /// Which motions the starts of a plane lead to.
     Basin(BasinRequest),
+    /// What a device delivers, bears and could be.
+    Design(DesignRequest),
 }
 
 impl Request {
@@ -113,6 +120,9 @@ impl Request {
             return Err(RequestError::Json("expected an object such as {\"task\":\"modes\"}".into()));
         };
         let task = fields.remove("task").unwrap_or(Value::Null);
+        if let Some(request) = DesignRequest::read(task.as_str().unwrap_or_default(), &fields)? {
+            return Ok(Self::Design(request));
+        }
         let fields = Value::Object(fields);
         match task.as_str() {
             Some("modes") => Ok(Self::Modes(read(fields)?)),
@@ -141,12 +151,13 @@ impl Request {
             Self::Sweep(request) => request.answer(),
             Self::Verdict(request) => request.answer(),
             Self::Basin(request) => request.answer(),
+            Self::Design(request) => request.answer(),
         }
     }
 }
 
 /// Deserialises with the path of the field in the error, and the allowed range where the field has one.
-fn read<T: DeserializeOwned>(value: Value) -> Result<T, RequestError> {
+pub(super) fn read<T: DeserializeOwned>(value: Value) -> Result<T, RequestError> {
     serde_path_to_error::deserialize(value).map_err(|error| {
         let path = error.path().to_string();
         let problem = match range(&path) {

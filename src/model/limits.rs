@@ -3,8 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Device;
 use super::materials::METRES_PER_MIL;
+use super::{Device, ModelError};
 
 /// Tip displacement, in beam lengths, beyond which the beam is no linear one.
 pub const LINEAR_BEAM: f64 = 0.3;
@@ -107,6 +107,22 @@ impl Limits {
         let mils = device.ceramic_thickness / METRES_PER_MIL;
         let field = device.ceramic.and_then(|ceramic| ceramic.material().field_limit);
         Self { voltage: field.map(|(low, high)| (low * mils, high * mils)), ..Self::default() }
+    }
+
+    /// Checks that the limits can be kept at all.
+    ///
+    /// # Errors
+    /// [`ModelError`] naming what is out of range.
+    pub fn validate(&self) -> Result<(), ModelError> {
+        let positive = (1e-12, 1e12);
+        ModelError::check("limits.gap", self.gap, (positive.0, 1.0), "")?;
+        ModelError::check("limits.deflection", self.deflection, positive, "")?;
+        ModelError::check("limits.slope", self.slope, positive, "")?;
+        if let Some((low, high)) = self.voltage {
+            ModelError::check("limits.voltage", low, positive, " V")?;
+            ModelError::check("limits.voltage", high, (low, positive.1), " V")?;
+        }
+        Ok(())
     }
 
     /// Every limit that applies to `demand`. `gap` is s0 in beam lengths; `None` without magnets, which then cannot

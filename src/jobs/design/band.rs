@@ -37,9 +37,10 @@ pub fn total(intervals: &[Interval]) -> f64 {
 }
 
 /// The interval about the highest point of the `curves` in which at least half its power is reached; `None` without
-/// points.
+/// points. A point alone has no width and does not count.
 pub fn half_power(curves: &[Vec<[f64; 2]>]) -> Option<Interval> {
-    let highest = curves.iter().flatten().copied().max_by(|a, b| a[1].total_cmp(&b[1]))?;
+    let chains = curves.iter().filter(|curve| curve.len() > 1);
+    let highest = chains.flatten().copied().max_by(|a, b| a[1].total_cmp(&b[1]))?;
     let bands = usable(curves, 0.5 * highest[1]);
     bands.into_iter().find(|band| (band.from..=band.to).contains(&highest[0]))
 }

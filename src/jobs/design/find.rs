@@ -4,11 +4,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::band::{total, usable};
+use super::harvest::{Lasting, lasting};
 use super::materials::lowest;
 use super::{DesignError, Plant};
-use crate::dynamics::motion::{Cell, Horizon};
 use crate::dynamics::tongue::Window;
-use crate::dynamics::{Motion, reach, trace_tongue};
+use crate::dynamics::{Motion, trace_tongue};
 use crate::jobs::motions::{Coordinate, at_place};
 use crate::model::{Limits, ModelError};
 use crate::scenario::Scenario;
@@ -118,10 +118,7 @@ impl FindQuestion {
                 return Err(ModelError::Count { field: "count", value: count, minimum, maximum });
             }
         }
-        let positive = (1e-12, 1e12);
-        ModelError::check("limits.gap", self.limits.gap, (1e-12, 1.0), "")?;
-        ModelError::check("limits.deflection", self.limits.deflection, positive, "")?;
-        ModelError::check("limits.slope", self.limits.slope, positive, "").map(|_| ())
+        self.limits.validate()
     }
 }
 
@@ -147,7 +144,7 @@ impl Evaluation {
     }
 }
 
-/// Evaluates one candidate, a value for each variable of `question`. The slope is not among the limits here.
+/// Evaluates one candidate, a value for each variable of `question`.
 ///
 /// # Errors
 /// [`DesignError`] when the question itself cannot be asked; a candidate without a device, or whose motion cannot be
@@ -162,37 +159,34 @@ pub fn evaluate(question: &FindQuestion, values: &[f64]) -> Result<Evaluation, D
         Objective::Band { least, from, to, count } => band(question, &plant, least, (from, to), count),
         Objective::Threshold(resonance) => threshold(&plant, resonance),
         Objective::Power | Objective::PowerPerG2 | Objective::Voltage => {
-            let p = plant.scenario.parameters;
-            let Some((cell, violation)) = cell_at(question, &plant, p.omega) else {
+            let Some((found, violation)) = lasting_at(question, &plant, plant.scenario.parameters.omega)
+            else {
                 return Ok(Evaluation::NOTHING);
             };
-            let acceleration = plant.units.acceleration(p.beta, p.omega);
-            let power = plant.watts(cell.v_rms);
-            let value = match question.objective {
-                Objective::Voltage => Some(cell.v_rms),
-                Objective::PowerPerG2 => (acceleration > 0.0).then(|| power / (acceleration * acceleration)),
-                _ => Some(power),
-            };
-            let value = value.filter(|_| cell.demand().is_some());
-            Ok(Evaluation { value, violation, motion: Some(cell.motion) })
+            let value = found.harvest.and_then(|harvest| match question.objective {
+                Objective::Voltage => Some(harvest.v_rms),
+                Objective::PowerPerG2 => harvest.power_per_g2,
+                _ => Some(harvest.power),
+            });
+            Ok(Evaluation { value, violation, motion: Some(found.motion) })
         }
     }
 }
 
 /// The motion reached at a frequency and how much it violates; `None` when there is none to be had.
-fn cell_at(question: &FindQuestion, plant: &Plant, omega: f64) -> Option<(Cell, f64)> {
+fn lasting_at(question: &FindQuestion, plant: &Plant, omega: f64) -> Option<(Lasting, f64)> {
     let mut scenario = plant.scenario.clone();
     scenario.parameters.omega = omega;
     let (system, initial) = scenario.validate().ok()?;
-    let cell = reach(&system, &initial, Horizon::chart(scenario.t_end)).ok()?.cell();
-    let violation = match cell.demand() {
+    let found = lasting(plant, &system, &initial).ok()?;
+    let violation = match found.harvest {
         None => NO_MOTION,
-        Some(demand) => {
-            let checks = question.limits.checks(&demand, Plant::gap(&system));
+        Some(harvest) => {
+            let checks = question.limits.checks(&harvest.demand, Plant::gap(&system));
             checks.iter().map(|check| (-check.margin).max(0.0)).sum()
         }
     };
-    Some((cell, violation))
+    Some((found, violation))
 }
 
 fn band(
@@ -205,11 +199,11 @@ fn band(
     let (mut curve, mut violation) = (Vec::with_capacity(count), 0.0_f64);
     for i in 0..count {
         let frequency = from + (to - from) * i as f64 / (count - 1) as f64;
-        let Some((cell, violated)) = cell_at(question, plant, plant.units.omega(frequency)) else {
+        let Some((found, violated)) = lasting_at(question, plant, plant.units.omega(frequency)) else {
             return Ok(Evaluation::NOTHING);
         };
         violation = violation.max(violated);
-        curve.push([frequency, plant.watts(cell.v_rms)]);
+        curve.push([frequency, found.harvest.map_or(0.0, |harvest| harvest.power)]);
     }
     Ok(Evaluation { value: Some(total(&usable(&[curve], least))), violation, motion: None })
 }

@@ -9,7 +9,9 @@ pub mod harvest;
 pub mod linear;
 pub mod load;
 pub mod materials;
+pub mod measured;
 pub mod plant;
+pub mod thin;
 pub mod trust;
 pub mod work;
 

@@ -5,7 +5,6 @@ use super::work::{Finding, Work};
 
 pub mod answers;
 pub mod basin;
-pub mod batch;
 pub mod curves;
 pub mod find;
 pub mod harvest;
@@ -15,6 +14,7 @@ pub mod motion_chart;
 pub mod multiplier_chart;
 pub mod single;
 pub mod sweep;
+pub mod table;
 pub mod tongues;
 
 /// A question that hands out work and puts the findings together.

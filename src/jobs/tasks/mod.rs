@@ -9,6 +9,7 @@ use crate::model::{ModelError, Parameter};
 pub mod basin;
 pub mod boundary;
 pub mod chart;
+pub mod design;
 pub mod modes;
 pub mod orbit;
 pub mod simulate;
@@ -35,6 +36,8 @@ pub enum Answer {
     Verdict(Box<verdict::VerdictAnswer>),
     /// To a basin request.
     Basin(basin::BasinAnswer),
+    /// To a request of the design bench.
+    Design(design::DesignAnswer),
 }
 
 /// Equally spaced values, both ends included.

@@ -12,13 +12,13 @@ use crate::theory::Resonance;
 
 /// Pieces and what they found, in their order.
 #[derive(Debug, Clone)]
-pub struct Batch {
+pub struct Table {
     works: Vec<Work>,
     handed: usize,
     found: Vec<Option<Result<Finding, String>>>,
 }
 
-impl Batch {
+impl Table {
     /// Nothing found yet.
     pub fn new(works: Vec<Work>) -> Self {
         Self { handed: 0, found: vec![None; works.len()], works }
@@ -81,7 +81,7 @@ impl Batch {
     }
 }
 
-impl Study for Batch {
+impl Study for Table {
     fn next(&mut self) -> Option<(usize, Work)> {
         let work = self.works.get(self.handed)?.clone();
         self.handed += 1;

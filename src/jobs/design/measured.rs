@@ -1,0 +1,304 @@
+//! Measured data: columns of numbers from a text file, (time, voltage) or (frequency, voltage), a slice at a time.
+//!
+//! Delimiter, decimal comma, header and preamble are found by themselves; which columns are meant, and in which units,
+//! is said by [`Columns`].
+
+use std::io::Cursor;
+
+use csv::{ByteRecord, Reader, ReaderBuilder};
+use serde::{Deserialize, Serialize};
+
+/// Lines that are looked at to find out how a file is written.
+const LOOKED_AT: usize = 100;
+/// What may stand between fields, in the order of trial; blanks may be several.
+const DELIMITERS: [u8; 5] = [b',', b';', b'\t', b'|', b' '];
+/// Characters of a field that a message quotes.
+const QUOTED: usize = 40;
+
+/// How a file is written.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Layout {
+    /// What stands between fields.
+    pub delimiter: u8,
+    /// Whether numbers have a decimal comma.
+    pub decimal_comma: bool,
+    /// Lines before the first row of numbers.
+    pub preamble: usize,
+    /// Names of the columns, where the last line before the numbers has as many fields as they.
+    pub header: Option<Vec<String>>,
+    /// Number of columns.
+    pub columns: usize,
+}
+
+/// Which columns are meant, counted from 0, and what turns their numbers into seconds or Hz, and volts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Columns {
+    /// Column of time or frequency.
+    pub x: usize,
+    /// Seconds or Hz per unit of it, such as 1e-3 for milliseconds.
+    pub x_unit: f64,
+    /// Column of the voltage.
+    pub y: usize,
+    /// Volts per unit of it.
+    pub y_unit: f64,
+}
+
+impl Default for Columns {
+    /// The first two, in SI units.
+    fn default() -> Self {
+        Self { x: 0, x_unit: 1.0, y: 1, y_unit: 1.0 }
+    }
+}
+
+/// What is wrong with a file, by line (from 1) and content.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeasuredError {
+    /// There is nothing in it.
+    #[error("the file is empty")]
+    Empty,
+    /// No two columns of numbers.
+    #[error("no row with at least two numbers in the first {lines} lines; line 1 is \"{first}\"")]
+    NoNumbers {
+        /// Lines looked at.
+        lines: usize,
+        /// The first line.
+        first: String,
+    },
+    /// A unit or a column that cannot be.
+    #[error("{field} = {value} is not available: {allowed}")]
+    Choice {
+        /// Which field of [`Columns`].
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A row is too short.
+    #[error("line {line} has {fields} fields, column {column} is missing: \"{content}\"")]
+    Missing {
+        /// Line.
+        line: u64,
+        /// How many fields it has.
+        fields: usize,
+        /// The column, from 1.
+        column: usize,
+        /// The line's beginning.
+        content: String,
+    },
+    /// A field is not a number.
+    #[error("line {line}, column {column}: \"{content}\" is not a finite number")]
+    Number {
+        /// Line.
+        line: u64,
+        /// Column, from 1.
+        column: usize,
+        /// The field.
+        content: String,
+    },
+    /// The text itself cannot be split.
+    #[error("line {line} cannot be read: {problem}")]
+    Text {
+        /// Line.
+        line: u64,
+        /// Why.
+        problem: String,
+    },
+}
+
+/// Finds out how `text` is written.
+///
+/// # Errors
+/// [`MeasuredError::Empty`] and [`MeasuredError::NoNumbers`].
+pub fn detect(text: &[u8]) -> Result<Layout, MeasuredError> {
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+    let lines: Vec<String> = text
+        .split(|byte| *byte == b'\n')
+        .take(LOOKED_AT)
+        .map(|line| String::from_utf8_lossy(line).trim().to_owned())
+        .collect();
+    let Some(first) = lines.iter().find(|line| !line.is_empty()) else { return Err(MeasuredError::Empty) };
+    // The earliest row of numbers wins, then the way that finds most columns.
+    let mut best: Option<Layout> = None;
+    for delimiter in DELIMITERS {
+        for decimal_comma in [false, true] {
+            if decimal_comma && delimiter == b',' {
+                continue;
+            }
+            let found = layout(&lines, delimiter, decimal_comma);
+            let better = |layout: &Layout| {
+                best.as_ref()
+                    .is_none_or(|best| (layout.preamble, best.columns) < (best.preamble, layout.columns))
+            };
+            if found.as_ref().is_some_and(better) {
+                best = found;
+            }
+        }
+    }
+    best.ok_or_else(|| MeasuredError::NoNumbers { lines: lines.len(), first: quoted(first) })
+}
+
+/// The layout with the first row of at least two numbers, which the next row must confirm.
+fn layout(lines: &[String], delimiter: u8, decimal_comma: bool) -> Option<Layout> {
+    let numbers = |line: &String| {
+        let fields = split(line, delimiter);
+        let all = fields.iter().all(|field| field.is_empty() || number(field, decimal_comma).is_some());
+        let count = fields.iter().filter(|field| !field.is_empty()).count();
+        (all && count >= 2).then_some(fields.len())
+    };
+    let rows: Vec<(usize, Option<usize>)> = lines
+        .iter()
+        .enumerate()
+        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+        .map(|(i, line)| (i, numbers(line)))
+        .collect();
+    let place = (0..rows.len())
+        .find(|k| rows[*k].1.is_some() && rows.get(k + 1).is_none_or(|next| next.1 == rows[*k].1))?;
+    let (preamble, columns) = (rows[place].0, rows[place].1?);
+    let above = lines[..preamble].iter().rev().find(|line| !line.is_empty());
+    let names = above.map(|line| split(line.trim_start_matches('#').trim(), delimiter));
+    let header = names
+        .filter(|names| names.len() == columns)
+        .map(|names| names.into_iter().map(|name| name.trim_matches('"').trim().to_owned()).collect());
+    Some(Layout { delimiter, decimal_comma, preamble, header, columns })
+}
+
+fn split(line: &str, delimiter: u8) -> Vec<&str> {
+    let fields = line.split(char::from(delimiter)).map(str::trim);
+    fields.filter(|field| delimiter != b' ' || !field.is_empty()).collect()
+}
+
+fn number(field: &str, decimal_comma: bool) -> Option<f64> {
+    let field = field.trim().trim_matches('"').trim();
+    let value: f64 = match decimal_comma && field.contains(',') {
+        true => field.replacen(',', ".", 1).parse().ok()?,
+        false => field.parse().ok()?,
+    };
+    value.is_finite().then_some(value)
+}
+
+fn quoted(text: &str) -> String {
+    text.chars().take(QUOTED).collect()
+}
+
+/// A file being read.
+#[derive(Debug)]
+pub struct Import {
+    reader: Reader<Cursor<Vec<u8>>>,
+    layout: Layout,
+    columns: Columns,
+    /// Where the rows begin.
+    start: usize,
+    length: u64,
+    points: Vec<[f64; 2]>,
+    record: ByteRecord,
+}
+
+impl Import {
+    /// Begins to read `text`, written as `layout` says.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Choice`] when a column does not exist or a unit is not a positive number.
+    pub fn new(text: Vec<u8>, layout: Layout, columns: Columns) -> Result<Self, MeasuredError> {
+        for (field, value) in [("x", columns.x), ("y", columns.y)] {
+            if value >= layout.columns {
+                let allowed = format!("allowed are 0 to {}", layout.columns - 1);
+                return Err(MeasuredError::Choice { field, value: value as f64, allowed });
+            }
+        }
+        for (field, value) in [("x_unit", columns.x_unit), ("y_unit", columns.y_unit)] {
+            if !(value.is_finite() && value != 0.0) {
+                let allowed = "allowed are finite numbers other than 0".to_owned();
+                return Err(MeasuredError::Choice { field, value, allowed });
+            }
+        }
+        let breaks = text.iter().enumerate().filter(|(_, byte)| **byte == b'\n').map(|(i, _)| i + 1);
+        let start = std::iter::once(0).chain(breaks).nth(layout.preamble).unwrap_or(text.len());
+        let length = text.len() as u64;
+        let mut cursor = Cursor::new(text);
+        cursor.set_position(start as u64);
+        let reader = ReaderBuilder::new()
+            .delimiter(layout.delimiter)
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .from_reader(cursor);
+        Ok(Self { reader, layout, columns, start, length, points: Vec::new(), record: ByteRecord::new() })
+    }
+
+    /// Reads up to `rows` further rows; whether the end is reached.
+    ///
+    /// # Errors
+    /// [`MeasuredError`] for the first row that is wrong.
+    pub fn advance(&mut self, rows: usize) -> Result<bool, MeasuredError> {
+        for _ in 0..rows {
+            let more = self
+                .reader
+                .read_byte_record(&mut self.record)
+                .map_err(|error| MeasuredError::Text { line: self.line(), problem: error.to_string() })?;
+            if !more {
+                return Ok(true);
+            }
+            // A row of delimiters only, as spreadsheets leave them.
+            if self.record.iter().all(<[u8]>::is_empty) {
+                continue;
+            }
+            let Columns { x, x_unit, y, y_unit } = self.columns;
+            let point = [self.field(x)? * x_unit, self.field(y)? * y_unit];
+            self.points.push(point);
+        }
+        Ok(false)
+    }
+
+    /// Read part, 0 to 1.
+    pub fn progress(&self) -> f64 {
+        if self.length == 0 { 1.0 } else { self.reader.get_ref().position() as f64 / self.length as f64 }
+    }
+
+    /// The points read so far, in the file's order: seconds or Hz, and volts.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// The same, when nothing more is to be read.
+    pub fn into_points(self) -> Vec<[f64; 2]> {
+        self.points
+    }
+
+    /// Line of the present record, for a message: blank lines and comments before it are skipped by the reader, but
+    /// counted by whoever looks for it.
+    fn line(&self) -> u64 {
+        let text = self.reader.get_ref().get_ref().as_slice();
+        let place = self.record.position().map_or(0, csv::Position::byte) as usize + self.start;
+        let (before, rest) = text.split_at(place.min(text.len()));
+        let skipped = rest
+            .split_inclusive(|byte| *byte == b'\n')
+            .take_while(|line| line.starts_with(b"#") || line.iter().all(|byte| b"\r\n".contains(byte)));
+        let breaks = before.iter().filter(|byte| **byte == b'\n').count();
+        (1 + breaks + skipped.count()) as u64
+    }
+
+    fn field(&self, column: usize) -> Result<f64, MeasuredError> {
+        let bytes = if self.layout.delimiter == b' ' {
+            self.record.iter().filter(|field| !field.is_empty()).nth(column)
+        } else {
+            self.record.get(column)
+        };
+        let delimiter = [self.layout.delimiter];
+        let Some(bytes) = bytes else {
+            let content = self.record.iter().collect::<Vec<_>>().join(&delimiter[..]);
+            return Err(MeasuredError::Missing {
+                line: self.line(),
+                fields: self.record.len(),
+                column: column + 1,
+                content: quoted(&String::from_utf8_lossy(&content)),
+            });
+        };
+        let value = std::str::from_utf8(bytes).ok().and_then(|text| number(text, self.layout.decimal_comma));
+        value.ok_or_else(|| MeasuredError::Number {
+            line: self.line(),
+            column: column + 1,
+            content: quoted(&String::from_utf8_lossy(bytes)),
+        })
+    }
+}

@@ -1,0 +1,101 @@
+//! Find requests: the best design over chosen variables within limits.
+
+use serde::{Deserialize, Serialize};
+
+use super::failed;
+use crate::jobs::RequestError;
+use crate::jobs::design::find::{Evaluation, FindQuestion, Objective, Variable};
+use crate::jobs::motions::Coordinate;
+use crate::jobs::study::complete;
+use crate::jobs::study::find::FindStudy;
+use crate::model::{Device, Limits, ParameterSet};
+use crate::scenario::Scenario;
+
+/// A better design.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FindTask {
+    /// What is varied.
+    pub variables: Vec<Named>,
+    /// What is to be good.
+    #[serde(default = "FindTask::default_objective")]
+    pub objective: Objective,
+    /// What must be kept; the device's own limits by default.
+    #[serde(default)]
+    pub limits: Option<Limits>,
+    /// Generations of the search.
+    #[serde(default = "FindTask::default_generations")]
+    pub generations: usize,
+    /// The same seed gives the same search.
+    #[serde(default)]
+    pub seed: u64,
+}
+
+/// A variable by name.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Named {
+    /// One of the ten numbers, or a dimension of the device such as `resistance`.
+    pub name: String,
+    /// Its lowest value.
+    pub from: f64,
+    /// Its highest value.
+    pub to: f64,
+    /// Whether it is varied on a logarithmic scale.
+    #[serde(default)]
+    pub logarithmic: bool,
+}
+
+/// A better design.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FindAnswer {
+    /// Values of the variables, in their order.
+    pub values: Vec<f64>,
+    /// What is known of them; limits are kept when the violation is 0.
+    pub evaluation: Evaluation,
+    /// The ten numbers of the design.
+    pub parameters: ParameterSet,
+    /// The same in SI units.
+    pub device: Device,
+    /// Best value after each generation, null as long as there was none.
+    pub history: Vec<Option<f64>>,
+    /// Number of candidates evaluated.
+    pub evaluations: usize,
+}
+
+impl FindTask {
+    const fn default_objective() -> Objective {
+        Objective::Power
+    }
+
+    const fn default_generations() -> usize {
+        20
+    }
+
+    pub(super) fn answer(&self, scenario: Scenario) -> Result<FindAnswer, RequestError> {
+        let variable = |named: &Named| {
+            let coordinate = Coordinate::named(&named.name, scenario.model.modes).ok_or_else(|| {
+                let problem = "allowed are the ten numbers and the device's dimensions".to_owned();
+                RequestError::Field { field: format!("variables: {}", named.name), problem }
+            })?;
+            Ok(Variable { coordinate, range: (named.from, named.to), logarithmic: named.logarithmic })
+        };
+        let variables = self.variables.iter().map(variable).collect::<Result<_, RequestError>>()?;
+        let limits = self.limits.unwrap_or_else(|| Limits::of(&scenario.base()));
+        let question = FindQuestion { scenario, variables, objective: self.objective, limits };
+        let mut study = FindStudy::new(question, self.generations, self.seed)?;
+        complete(&mut study);
+        failed(study.failure())?;
+        let missing = || RequestError::Study("no candidate was evaluated".to_owned());
+        let best = study.best().ok_or_else(missing)?;
+        let scenario = study.scenario(best)?;
+        Ok(FindAnswer {
+            values: best.values.clone(),
+            evaluation: best.evaluation,
+            parameters: scenario.parameters,
+            device: scenario.device()?,
+            history: study.history().iter().map(|best| best.evaluation.value).collect(),
+            evaluations: study.visited().len(),
+        })
+    }
+}

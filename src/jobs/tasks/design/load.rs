@@ -1,0 +1,71 @@
+//! Load requests: power against the load resistance.
+
+use serde::{Deserialize, Serialize};
+
+use super::failed;
+use super::harvest::Hertz;
+use crate::jobs::RequestError;
+use crate::jobs::design::Plant;
+use crate::jobs::design::load::{BestFrequency, LoadPoint, best};
+use crate::jobs::study::complete;
+use crate::jobs::study::load::{LoadQuestion, LoadStudy};
+use crate::scenario::Scenario;
+
+/// Power against the load.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LoadTask {
+    /// Lowest resistance (ohm); by default three decades below the device's own.
+    pub from: Option<f64>,
+    /// Highest resistance (ohm); by default six decades above the lowest.
+    pub to: Option<f64>,
+    /// Loads a decade.
+    pub per_decade: usize,
+    /// Frequencies (Hz) among which the best one is looked for under each load; their number plays no role.
+    pub window: Option<Hertz>,
+}
+
+impl Default for LoadTask {
+    fn default() -> Self {
+        Self { from: None, to: None, per_decade: 10, window: None }
+    }
+}
+
+/// Power against the load.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LoadAnswer {
+    /// The linear device at the own frequency: (ohm, W).
+    pub linear: Vec<[f64; 2]>,
+    /// Its best load (ohm) and power (W).
+    pub linear_best: [f64; 2],
+    /// The forced motion, stable or not; null where it is lost.
+    pub forced: Vec<Option<LoadPoint>>,
+    /// The motion reached, carried from the own load to both sides.
+    pub reached: Vec<Option<LoadPoint>>,
+    /// The best of these that lasts.
+    pub reached_best: Option<LoadPoint>,
+    /// The best frequency for each load, where a window was given.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub best_frequency: Vec<Option<BestFrequency>>,
+}
+
+impl LoadTask {
+    pub(super) fn answer(&self, scenario: Scenario) -> Result<LoadAnswer, RequestError> {
+        let plant = Plant::new(&scenario)?;
+        let window = self.window.map(|window| window.window(&plant)).transpose()?;
+        let about = LoadQuestion::about(scenario, window)?;
+        let low = self.from.unwrap_or(about.range.0);
+        let range = (low, self.to.unwrap_or(if self.from.is_some() { 1e6 * low } else { about.range.1 }));
+        let mut study = LoadStudy::new(LoadQuestion { range, per_decade: self.per_decade, ..about })?;
+        complete(&mut study);
+        failed(study.failure())?;
+        Ok(LoadAnswer {
+            linear: study.linear().to_vec(),
+            linear_best: study.linear_best(),
+            forced: study.forced().unwrap_or_default().to_vec(),
+            reached: study.reached().to_vec(),
+            reached_best: best(study.reached().iter().flatten().copied()),
+            best_frequency: study.best_frequencies().to_vec(),
+        })
+    }
+}

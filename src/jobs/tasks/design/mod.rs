@@ -1,0 +1,183 @@
+//! The requests of the design bench: they share what describes the device, in the ten numbers or in SI units.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::Answer;
+use crate::jobs::RequestError;
+use crate::jobs::request::read;
+use crate::model::{Device, ElectricalScaling, ModelError, ParameterSet};
+use crate::scenario::{ModelChoice, Scenario};
+
+mod find;
+mod harvest;
+mod limits;
+mod load;
+mod materials;
+mod trust;
+
+pub use find::{FindAnswer, FindTask};
+pub use harvest::{HarvestAnswer, HarvestTask};
+pub use limits::{LimitsAnswer, LimitsTask};
+pub use load::{LoadAnswer, LoadTask};
+pub use materials::{MaterialsAnswer, MaterialsTask};
+pub use trust::{TrustAnswer, TrustTask};
+
+/// The device that a request of the bench is about.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Subject {
+    /// The ten numbers. Absent, they are those of `device`, or else the paper's.
+    pub parameters: Option<ParameterSet>,
+    /// The device in SI units, missing dimensions as in Table 1. Beside `parameters` it says only what they leave open.
+    pub device: Option<Device>,
+    /// How its circuit is scaled.
+    pub scaling: ElectricalScaling,
+    /// Amplitude of the base's acceleration (g), instead of that of its motion.
+    pub acceleration: Option<f64>,
+    /// Modes and force law.
+    pub model: ModelChoice,
+    /// State at time 0, length 2N + 1; rest when absent.
+    pub initial: Option<Vec<f64>>,
+    /// How long a start is followed before its class is asked for (dimensionless).
+    pub t_end: f64,
+}
+
+impl Default for Subject {
+    fn default() -> Self {
+        let Scenario { model, t_end, .. } = Scenario::default();
+        Self {
+            parameters: None,
+            device: None,
+            scaling: ElectricalScaling::default(),
+            acceleration: None,
+            model,
+            initial: None,
+            t_end,
+        }
+    }
+}
+
+/// Names of the fields of [`Subject`].
+const SUBJECT: [&str; 7] = ["parameters", "device", "scaling", "acceleration", "model", "initial", "t_end"];
+
+impl Subject {
+    /// The scenario, checked.
+    ///
+    /// # Errors
+    /// [`ModelError`] naming what is out of range.
+    pub fn scenario(&self) -> Result<Scenario, ModelError> {
+        let mut scenario = Scenario {
+            model: self.model,
+            initial: self.initial.clone(),
+            t_end: self.t_end,
+            scaling: self.scaling,
+            ..Scenario::default()
+        };
+        match (self.parameters, self.device) {
+            (Some(parameters), device) => (scenario.parameters, scenario.device) = (parameters, device),
+            (None, Some(device)) => scenario.set_device(device, self.scaling)?,
+            (None, None) => {}
+        }
+        if let Some(acceleration) = self.acceleration {
+            ModelError::check("acceleration", acceleration, (0.0, 1e6), " g")?;
+            let omega = ModelError::check("omega", scenario.parameters.omega, (1e-9, 1e9), "")?;
+            scenario.parameters.beta = scenario.units().beta_of(acceleration, omega);
+        }
+        scenario.validate()?;
+        Ok(scenario)
+    }
+}
+
+/// What is asked about the device.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Task {
+    /// What it harvests.
+    Harvest(HarvestTask),
+    /// Power against the load.
+    Load(LoadTask),
+    /// The ceramics side by side.
+    Materials(MaterialsTask),
+    /// Its limits.
+    Limits(LimitsTask),
+    /// How far the model is to be trusted.
+    Trust(TrustTask),
+    /// A better design.
+    Find(FindTask),
+}
+
+/// A request of the bench.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DesignRequest {
+    /// The device.
+    pub subject: Subject,
+    /// The question.
+    pub task: Task,
+}
+
+/// An answer of the bench.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum DesignAnswer {
+    /// What the device harvests.
+    Harvest(Box<HarvestAnswer>),
+    /// Power against the load.
+    Load(LoadAnswer),
+    /// The ceramics.
+    Materials(MaterialsAnswer),
+    /// The limits.
+    Limits(LimitsAnswer),
+    /// Trust.
+    Trust(TrustAnswer),
+    /// A design.
+    Find(Box<FindAnswer>),
+}
+
+impl DesignRequest {
+    /// Reads the fields of a request for `task`; `None` when the bench has no such task.
+    ///
+    /// # Errors
+    /// [`RequestError`] for the first field that is wrong.
+    pub(in crate::jobs) fn read(
+        task: &str,
+        fields: &Map<String, Value>,
+    ) -> Result<Option<Self>, RequestError> {
+        let part = |wanted: bool| {
+            let chosen = fields.iter().filter(|(name, _)| SUBJECT.contains(&name.as_str()) == wanted);
+            Value::Object(chosen.map(|(name, value)| (name.clone(), value.clone())).collect())
+        };
+        let own = part(false);
+        let task = match task {
+            "harvest" => Task::Harvest(read(own)?),
+            "load" => Task::Load(read(own)?),
+            "materials" => Task::Materials(read(own)?),
+            "limits" => Task::Limits(read(own)?),
+            "trust" => Task::Trust(read(own)?),
+            "find" => Task::Find(read(own)?),
+            _ => return Ok(None),
+        };
+        Ok(Some(Self { subject: read(part(true))?, task }))
+    }
+
+    /// Computes the answer.
+    ///
+    /// # Errors
+    /// [`RequestError`] when a number is out of range or the question has no answer.
+    pub fn answer(&self) -> Result<Answer, RequestError> {
+        let scenario = self.subject.scenario()?;
+        let answer = match &self.task {
+            Task::Harvest(task) => DesignAnswer::Harvest(Box::new(task.answer(scenario)?)),
+            Task::Load(task) => DesignAnswer::Load(task.answer(scenario)?),
+            Task::Materials(task) => DesignAnswer::Materials(task.answer(&scenario)?),
+            Task::Limits(task) => DesignAnswer::Limits(task.answer(&scenario)?),
+            Task::Trust(task) => DesignAnswer::Trust(task.answer(&scenario)?),
+            Task::Find(task) => DesignAnswer::Find(Box::new(task.answer(scenario)?)),
+        };
+        Ok(Answer::Design(answer))
+    }
+}
+
+/// A failure of a study as that of a request.
+fn failed(message: Option<&str>) -> Result<(), RequestError> {
+    message.map_or(Ok(()), |message| Err(RequestError::Study(message.to_owned())))
+}

@@ -1,0 +1,136 @@
+//! The requests of the design bench.
+
+use harvester_lab::jobs::solve;
+use serde_json::{Value, json};
+
+fn answer(request: &Value) -> Value {
+    let text = solve(&request.to_string()).unwrap_or_else(|message| panic!("{request}: {message}"));
+    serde_json::from_str(&text).expect("an answer is JSON")
+}
+
+fn refusal(request: &Value) -> String {
+    solve(&request.to_string()).expect_err("it is refused")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+fn figure_9() -> Value {
+    json!({"alpha": 1e-4, "beta": 0.01, "omega": 8.0969})
+}
+
+#[test]
+fn a_harvest_may_be_asked_for_in_numbers_and_in_si_units() {
+    let found = answer(&json!({"task": "harvest", "parameters": figure_9()}));
+    assert_eq!(found["reached"]["motion"]["periods"], 2);
+    assert!((number(&found["reached_gain"]) - 9.7155).abs() < 1e-3, "{found}");
+    assert!(number(&found["reached"]["harvest"]["defect"]) < 1e-8);
+    // Table 1 shaken as in Figure 3, by its SI device.
+    let device = answer(&json!({"task": "harvest", "device": {}}));
+    assert!((number(&device["acceleration"]) - 0.148206).abs() < 1e-5, "{device}");
+    assert!((number(&device["frequency"]) - 25.0 / (std::f64::consts::TAU * 0.4543265)).abs() < 1e-6);
+    // An acceleration comes out as it went in.
+    let shaken = answer(&json!({"task": "harvest", "device": {"frequency": 2.9}, "acceleration": 0.05}));
+    assert!((number(&shaken["acceleration"]) / 0.05 - 1.0).abs() < 1e-12, "{shaken}");
+    assert!((number(&shaken["frequency"]) / 2.9 - 1.0).abs() < 1e-12);
+    // The consistent scaling is another circuit: twice the coupling, twice the damping that it brings.
+    let other = answer(&json!({"task": "harvest", "device": {}, "scaling": "consistent"}));
+    let ratio = number(&other["linear"]["power"]) / number(&device["linear"]["power"]);
+    assert!((ratio - 1.0).abs() > 1e-4, "{ratio}");
+}
+
+#[test]
+fn a_harvest_over_frequency_has_curves_and_bands() {
+    let found = answer(&json!({
+        "task": "harvest", "parameters": figure_9(), "least": 1e-5,
+        "frequency": {"from": 2.7, "to": 3.0, "count": 13},
+    }));
+    let curves = &found["curves"];
+    assert_eq!((list(&curves["up"]).len(), list(&curves["from_rest"]).len()), (13, 13));
+    let bands: Vec<&str> = list(&curves["bands"]).iter().filter_map(|band| band["of"].as_str()).collect();
+    assert_eq!(bands, ["linear", "stable", "from_rest", "up", "down"]);
+    assert_eq!(number(&curves["bands"][0]["total"]), 0.0);
+    assert!(number(&curves["bands"][2]["total"]) > 0.1, "{}", curves["bands"]);
+    assert!(list(&curves["branches"]).iter().any(|branch| branch["periods"] == 2));
+}
+
+#[test]
+fn loads_have_an_optimum() {
+    let found = answer(&json!({"task": "load", "parameters": figure_9(), "per_decade": 2}));
+    assert_eq!((list(&found["linear"]).len(), list(&found["reached"]).len()), (13, 13));
+    let best = number(&found["reached_best"]["power"]);
+    for point in list(&found["reached"]) {
+        assert!(number(&point["power"]) <= best);
+    }
+    let linear = number(&found["linear_best"][1]);
+    assert!(list(&found["linear"]).iter().all(|point| number(&point[1]) <= linear));
+}
+
+#[test]
+fn limits_say_what_is_broken() {
+    let with = |thickness: f64| {
+        answer(&json!({
+            "task": "limits", "parameters": figure_9(),
+            "device": {"ceramic": "apc844", "ceramic_thickness": thickness, "gravity": 0.0},
+        }))
+    };
+    let (thick, thin) = (with(2e-4), with(5e-5));
+    assert_eq!((&thick["safe"], &thin["safe"]), (&json!(true), &json!(false)));
+    let broken =
+        |found: &Value| list(&found["checks"]).iter().filter(|check| check["standing"] != "within").count();
+    assert_eq!((broken(&thick), broken(&thin)), (0, 1), "{thin}");
+    assert_eq!(thin["checks"][0]["kind"], "voltage");
+    assert!(number(&thin["checks"][0]["margin"]) < 0.0);
+    // The printed device sags by more than half its length.
+    let sagging = answer(&json!({"task": "limits", "parameters": figure_9()}));
+    let last = list(&sagging["checks"]).last().cloned().unwrap_or_default();
+    assert_eq!((&last["kind"], &last["standing"]), (&json!("sag"), &json!("exceeded")));
+}
+
+#[test]
+fn ceramics_trust_and_designs_are_answered() {
+    let parameters = json!({"alpha": 1e-4, "beta": 0.002, "omega": 8.1569});
+    let found = answer(&json!({"task": "materials", "parameters": parameters}));
+    let names: Vec<&str> = list(&found["rows"]).iter().filter_map(|row| row["name"].as_str()).collect();
+    assert_eq!((names.len(), names[0], names[8]), (9, "APC 840", "APC 880/881"));
+    let trust = answer(&json!({
+        "task": "trust", "parameters": parameters, "quantity": {"threshold": "first"}, "t_end": 200,
+    }));
+    assert_eq!((list(&trust["entries"]).len(), list(&trust["law_errors"]).len()), (32, 4));
+    let value = |i: usize| number(&trust["entries"][i]["value"]);
+    assert!((value(4) / value(7) - 1.0).abs() < 0.2, "{trust}");
+    let find = json!({
+        "task": "find", "parameters": parameters, "generations": 3, "seed": 5, "t_end": 200,
+        "variables": [{"name": "resistance", "from": 1e5, "to": 1e9, "logarithmic": true}],
+    });
+    let design = answer(&find);
+    assert_eq!(design, answer(&find));
+    assert_eq!((list(&design["history"]).len(), &design["evaluations"]), (3, &json!(24)));
+    let ohm = number(&design["values"][0]);
+    assert!((number(&design["device"]["resistance"]) / ohm - 1.0).abs() < 1e-9, "{design}");
+}
+
+#[test]
+fn a_bad_request_names_the_field() {
+    for (request, message) in [
+        (json!({"task": "harvest", "device": {"beam_mass": -1.0}}), "beam_mass = -1 is out of range"),
+        (json!({"task": "harvest", "device": {"mass": 1.0}}), "device.mass: unknown field `mass`"),
+        (json!({"task": "harvest", "ohm": 1}), "ohm: unknown field `ohm`"),
+        (json!({"task": "load", "per_decade": 99}), "per_decade = 99 is not available: allowed are 1 to 50"),
+        (json!({"task": "materials", "mode": 3}), "mode = 3 is not available: allowed are 1 to 2"),
+        (json!({"task": "limits", "gap": 2.0}), "limits.gap = 2 is out of range"),
+        (json!({"task": "find", "variables": []}), "variables = 0 is not available: allowed are 1 to 8"),
+        (
+            json!({"task": "find", "variables": [{"name": "colour", "from": 0, "to": 1}]}),
+            "variables: colour: allowed are the ten numbers",
+        ),
+    ] {
+        let found = refusal(&request);
+        assert!(found.starts_with(message), "{request}: {found}");
+    }
+}

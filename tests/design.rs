@@ -1,0 +1,273 @@
+//! The design bench: loads, ceramics, trust, and the search for designs.
+
+use harvester_lab::dynamics::sweep::Dwell;
+use harvester_lab::dynamics::tongue::Window;
+use harvester_lab::dynamics::{Motion, critical_excitation};
+use harvester_lab::jobs::design::band::{half_power, total, usable};
+use harvester_lab::jobs::design::find::{FindQuestion, Objective, Variable, evaluate};
+use harvester_lab::jobs::design::load::{best, best_frequency};
+use harvester_lab::jobs::design::materials::with_ceramic;
+use harvester_lab::jobs::design::trust::{LAWS, Quantity, law_error, trust_entry};
+use harvester_lab::jobs::design::{Plant, operating};
+use harvester_lab::jobs::motions::{Coordinate, at_place};
+use harvester_lab::jobs::study::find::FindStudy;
+use harvester_lab::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
+use harvester_lab::jobs::study::load::{LoadQuestion, LoadStudy};
+use harvester_lab::jobs::study::motion_chart::{MotionChart, MotionQuestion};
+use harvester_lab::jobs::study::sweep::Direction;
+use harvester_lab::jobs::study::table::Table;
+use harvester_lab::jobs::study::{Study, complete};
+use harvester_lab::model::materials::Ceramic;
+use harvester_lab::model::{Dimension, ForceLaw, Limits, Parameter, ParameterSet};
+use harvester_lab::scenario::{ModelChoice, Scenario};
+use harvester_lab::theory::Resonance;
+
+type TestResult = Result<(), Box<dyn std::error::Error>>;
+
+fn figure_9() -> Scenario {
+    let parameters = ParameterSet { alpha: 1e-4, beta: 0.01, omega: 8.0969, ..Default::default() };
+    Scenario { parameters, ..Default::default() }
+}
+
+#[test]
+fn the_doubled_motion_is_followed_over_loads_and_the_linear_optimum_is_the_closed_form() -> TestResult {
+    let question = LoadQuestion { per_decade: 4, ..LoadQuestion::about(figure_9(), None)? };
+    let mut study = LoadStudy::new(question)?;
+    complete(&mut study);
+    assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
+    assert_eq!(study.resistances().len(), 25);
+    assert!((study.resistances()[24] / study.resistances()[0] / 1e6 - 1.0).abs() < 1e-12);
+    // The linear device: no load gives more than the closed form's, and the curve comes close to it.
+    let [ohm, watt] = study.linear_best();
+    assert!(study.linear().iter().all(|point| point[1] <= watt));
+    let near = study.linear().iter().filter(|point| (point[0] / ohm).ln().abs() < 0.3);
+    assert!(near.map(|point| point[1] / watt).fold(0.0, f64::max) > 0.95);
+    let at_best = Plant::new(&figure_9())?.with_resistance(ohm)?;
+    let linear = operating(&at_best.scenario)?.linear;
+    assert!((linear.power / watt - 1.0).abs() < 1e-9);
+    // At the device's own load, in the middle, it is the motion of the figure.
+    let middle = study.reached()[12].ok_or("known")?;
+    assert_eq!(middle.motion, Motion::Periodic { periods: 2 });
+    let own = operating(&figure_9())?.reached.harvest.ok_or("it lasts")?;
+    assert!((middle.power / own.power - 1.0).abs() < 1e-7, "{middle:?} {own:?}");
+    let doubled = study.reached().iter().flatten();
+    let doubled = doubled.filter(|point| point.motion == Motion::Periodic { periods: 2 }).count();
+    let forced = study.forced().ok_or("known")?;
+    let unstable = forced.iter().flatten().filter(|point| !point.stable).count();
+    println!("{doubled} doubled, {unstable} unstable forced");
+    for (forced, reached) in forced.iter().zip(study.reached()) {
+        println!("{forced:?}\n    {reached:?}");
+    }
+    assert!(doubled >= 15, "{doubled}");
+    let found = best(study.reached().iter().flatten().copied()).ok_or("points")?;
+    assert!(found.power >= own.power);
+    Ok(())
+}
+
+#[test]
+fn the_best_frequency_beats_the_given_one() -> TestResult {
+    let scenario = figure_9();
+    let plant = Plant::new(&scenario)?;
+    let found = best_frequency(&scenario, plant.resistance(), (7.5, 8.8))?;
+    let own = operating(&scenario)?;
+    println!("{found:?}");
+    assert!(found.linear[1] >= own.linear.power);
+    let nonlinear = found.nonlinear.ok_or("a stable motion")?;
+    assert!(nonlinear[1] >= 0.999 * own.reached.harvest.ok_or("it lasts")?.power && found.periods == 2);
+    Ok(())
+}
+
+#[test]
+fn the_frequency_curves_agree_with_one_another() -> TestResult {
+    let scenario = figure_9();
+    let dwell = Dwell { discarded: 300, kept: 16 };
+    let question = HarvestQuestion { scenario, window: (7.6, 8.7), count: 23, dwell };
+    let mut study = HarvestStudy::new(question)?;
+    complete(&mut study);
+    assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
+    let branches = study.branches().ok_or("known")?.map_err(str::to_owned)?;
+    assert!(branches.iter().any(|branch| branch.periods == 2));
+    for direction in [Direction::Up, Direction::Down] {
+        assert_eq!(study.swept(direction).len(), 23);
+    }
+    // What is reached from rest and repeats lies on a stable branch.
+    let stable = study.stable_power();
+    for (motion, point) in study.from_rest().iter().flatten().flatten() {
+        let Motion::Periodic { periods } = motion else { continue };
+        let on = stable.iter().flat_map(|curve| curve.windows(2)).any(|pair| {
+            let inside = (pair[0][0] - point.frequency) * (pair[1][0] - point.frequency) <= 0.0;
+            let share = (point.frequency - pair[0][0]) / (pair[1][0] - pair[0][0]);
+            let power = pair[0][1] + share * (pair[1][1] - pair[0][1]);
+            inside && (power / point.power - 1.0).abs() < 0.02
+        });
+        assert!(on || *periods > 4, "{motion:?} {point:?}");
+    }
+    let least = 1e-5;
+    let (linear, rest) = (study.linear(), usable(&study.rest_power(), least));
+    let points: Vec<[f64; 2]> = linear.points.iter().map(|point| [point[0], point[2]]).collect();
+    println!("usable {rest:?}, linear {:?}, peak {:?}", usable(&[points], least), linear.peak);
+    println!("half power {:?}", half_power(&study.rest_power()));
+    assert!(total(&rest) > 0.0 && linear.peak[1] < least);
+    Ok(())
+}
+
+#[test]
+fn every_ceramic_has_its_row_and_harder_ones_need_less() -> TestResult {
+    let mut table = Table::materials(&figure_9(), 1, Resonance::First, Window::default());
+    complete(&mut table);
+    let rows: Vec<_> = table.material_rows().flatten().collect::<Result<_, _>>()?;
+    assert_eq!(rows.len(), 9);
+    for row in &rows {
+        println!("{row:?}");
+        let scenario = with_ceramic(&figure_9(), row.ceramic, 1)?;
+        let plant = Plant::new(&scenario)?;
+        let threshold = row.threshold.ok_or("a tongue")?;
+        // The threshold is the exact boundary there, and lowest among its neighbours.
+        let system = plant.system()?;
+        let omega = plant.units.omega(threshold.frequency);
+        let at = |omega: f64| critical_excitation(&system, omega, 0.04, None).map(|found| found.beta());
+        let lowest = at(omega)?.ok_or("unstable")?;
+        assert!((lowest / threshold.beta - 1.0).abs() < 1e-6, "{row:?}");
+        for nearby in [omega - 2e-3, omega + 2e-3] {
+            assert!(at(nearby)?.ok_or("unstable")? > threshold.beta * (1.0 + 1e-9), "{row:?}");
+        }
+        assert!(row.reached.harvest.is_some_and(|harvest| harvest.defect < 1e-8));
+        let open = row.open.ok_or("beta is above the threshold")?;
+        assert!(open.from < threshold.frequency && threshold.frequency < open.to);
+    }
+    let of = |ceramic| rows.iter().find(|row| row.ceramic == ceramic).and_then(|row| row.threshold);
+    let (hard, soft) = (of(Ceramic::Apc844).ok_or("844")?, of(Ceramic::Apc860).ok_or("860")?);
+    assert!(hard.beta < soft.beta, "{hard:?} {soft:?}");
+    assert!(with_ceramic(&figure_9(), Ceramic::Apc840, 3).is_err());
+    Ok(())
+}
+
+#[test]
+fn trust_is_a_table_of_modes_and_laws() -> TestResult {
+    let mut table = Table::trust(&figure_9(), Quantity::Voltage);
+    complete(&mut table);
+    let entries: Vec<_> = table.trust_entries().flatten().collect::<Result<_, _>>()?;
+    assert_eq!(entries.len(), 32);
+    let of = |modes, law| entries.iter().find(|e| e.modes == modes && e.law == law).and_then(|e| e.value);
+    for entry in &entries {
+        println!("{entry:?}");
+    }
+    assert!((of(2, ForceLaw::Quadratic).ok_or("it lasts")? - 14.1783).abs() < 1e-4);
+    // Modes converge.
+    let [six, eight] = [6, 8].map(|modes| of(modes, ForceLaw::Exact));
+    assert!((six.ok_or("it lasts")? / eight.ok_or("it lasts")? - 1.0).abs() < 5e-3);
+    // The threshold of an independent program at the tongue's tip: 0.000421 at omega = 8.1569.
+    let entry = trust_entry(&figure_9(), 2, ForceLaw::Quadratic, Quantity::Threshold(Resonance::First))?;
+    let lowest = entry.value.ok_or("a tongue")?;
+    assert!(lowest < 0.000422 && lowest > 0.0004, "{lowest}");
+    // The quadratic law of Figure 9 at its closest approach, by the series of the exact one.
+    let (system, _) = figure_9().validate()?;
+    let cubic = law_error(&system, ForceLaw::Quadratic, -1e-5).rest.ok_or("no contact")?;
+    let (c2, c3) = (-19.378543266711, 223.38294552191);
+    assert!((cubic / (c3 / c2 * 1e-5) - 1.0).abs() < 1e-3, "{cubic}");
+    let far = LAWS.map(|law| law_error(&system, law, -0.0835).rest.unwrap_or(f64::NAN).abs());
+    assert!(far[0] > 0.3 && far[1] < far[0] && far[2] < far[1] && far[3] == 0.0, "{far:?}");
+    assert_eq!(law_error(&system, ForceLaw::Quadratic, -0.2).rest, None);
+    Ok(())
+}
+
+fn question(objective: Objective, limits: Limits) -> FindQuestion {
+    let model = ModelChoice { force: ForceLaw::Exact, ..Default::default() };
+    let scenario = Scenario { model, t_end: 300.0, ..figure_9() };
+    let dimension = |dimension, range| Variable {
+        coordinate: Coordinate::Dimension(dimension),
+        range,
+        logarithmic: true,
+    };
+    let variables =
+        vec![dimension(Dimension::Frequency, (2.5, 3.2)), dimension(Dimension::Resistance, (1e5, 1e9))];
+    FindQuestion { scenario, variables, objective, limits }
+}
+
+#[test]
+fn a_search_finds_more_power_within_its_limits_and_the_same_again() -> TestResult {
+    let wide = question(Objective::Power, Limits::default());
+    let tight = question(Objective::Power, Limits { voltage: Some((8.0, 9.0)), ..Default::default() });
+    let mut powers = Vec::new();
+    for question in [wide, tight] {
+        let run = || -> Result<FindStudy, Box<dyn std::error::Error>> {
+            let mut study = FindStudy::new(question.clone(), 8, 7)?;
+            complete(&mut study);
+            Ok(study)
+        };
+        let study = run()?;
+        assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
+        let found = study.best().ok_or("a candidate")?;
+        println!("{found:?} of {}", study.visited().len());
+        assert_eq!(found.evaluation.violation, 0.0);
+        assert_eq!((study.history().len(), study.visited().len()), (8, 8 * 16));
+        let ranks = study.history().iter().map(|best| best.evaluation.rank(&question.objective));
+        assert!(ranks.collect::<Vec<_>>().is_sorted());
+        assert_eq!(run()?.best(), study.best());
+        // What it says of the candidate is what the bench says of its scenario.
+        let scenario = study.scenario(found)?;
+        let harvest = operating(&scenario)?.reached.harvest.ok_or("it lasts")?;
+        let power = found.evaluation.value.ok_or("it lasts")?;
+        assert!((harvest.power / power - 1.0).abs() < 1e-6, "{harvest:?} {power}");
+        let (system, _) = scenario.validate()?;
+        assert!(question.limits.allow(&harvest.demand, Plant::gap(&system)), "{harvest:?}");
+        powers.push(power);
+    }
+    let own = operating(&question(Objective::Power, Limits::default()).scenario)?.reached.harvest;
+    let own = own.ok_or("it lasts")?.power;
+    println!("own {own}, found {powers:?}");
+    assert!(powers[0] > own && powers[0] > powers[1], "{powers:?} {own}");
+    Ok(())
+}
+
+#[test]
+fn candidates_without_a_device_are_answers_and_bad_questions_errors() -> TestResult {
+    let good = question(Objective::Voltage, Limits::default());
+    // A beam so soft that it sags to the fixed magnet.
+    let mut soft = good.clone();
+    soft.variables[0].coordinate = Coordinate::Dimension(Dimension::YoungsModulus);
+    let found = evaluate(&soft, &[1e9, 1e7])?;
+    assert!(found.value.is_none() && found.violation > 0.0);
+    let mut same = good.clone();
+    same.variables[1] = same.variables[0];
+    assert!(FindStudy::new(same, 5, 1).is_err());
+    let none = FindQuestion { variables: Vec::new(), ..good.clone() };
+    assert!(FindStudy::new(none, 5, 1).is_err() && FindStudy::new(good, 0, 1).is_err());
+    Ok(())
+}
+
+#[test]
+fn a_chart_in_si_units_is_the_chart_of_the_numbers() -> TestResult {
+    let scenario = figure_9();
+    let device = scenario.device()?;
+    let axis = |dimension, range| (Coordinate::Dimension(dimension), range);
+    let question = MotionQuestion {
+        scenario: scenario.clone(),
+        x: axis(Dimension::Frequency, (2.7, 2.9)),
+        y: axis(Dimension::MagnetDistance, (0.2, 0.4)),
+        size: (3, 3),
+        t_end: 200.0,
+    };
+    question.validate()?;
+    let mut chart = MotionChart::new(question);
+    complete(&mut chart);
+    assert!(chart.finished() && chart.failure().is_none());
+    // The lowest row closes the gap: the beam sags by 0.27 m.
+    assert_eq!(chart.cell(0, 0), Some(None));
+    let coordinates = [Dimension::Frequency, Dimension::MagnetDistance].map(Coordinate::Dimension);
+    let place = at_place(&scenario, &coordinates, &[2.8, 0.4])?;
+    assert!((place.parameters.omega / (8.0969 * 2.8 / device.frequency) - 1.0).abs() < 1e-12);
+    assert!((place.device()?.resistance / device.resistance - 1.0).abs() < 1e-12);
+    let plane = MotionQuestion {
+        scenario: place.clone(),
+        x: (Coordinate::Parameter(Parameter::Omega), (place.parameters.omega, 9.0)),
+        y: (Coordinate::Parameter(Parameter::Beta), (place.parameters.beta, 0.02)),
+        size: (2, 2),
+        t_end: 200.0,
+    };
+    let mut same = MotionChart::new(plane);
+    complete(&mut same);
+    let [a, b] = [chart.cell(1, 2), same.cell(0, 0)].map(|cell| cell.flatten().map(|cell| cell.v_rms));
+    assert!((a.ok_or("a cell")? / b.ok_or("a cell")? - 1.0).abs() < 1e-9, "{a:?} {b:?}");
+    Ok(())
+}
