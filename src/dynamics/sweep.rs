@@ -68,7 +68,7 @@ pub struct SweepPoint {
     pub tip: (f64, f64),
     /// Excitation periods after which the stroboscopic points repeat; `None` when they do not, or are too few.
     pub period: Option<usize>,
-    /// Whether the motion escaped or touched; the other numbers are then of what came before.
+    /// Whether the motion escaped or touched, or there is no such device; the other numbers are then zero.
     pub ended: bool,
     /// Whether this value started from the sweep's start instead of the state before.
     pub restarted: bool,
@@ -92,10 +92,17 @@ pub fn sweep(
     for value in values {
         let mut set = scenario.parameters;
         *parameter.get_mut(&mut set) = *value;
-        let system = scenario.model.system(set)?;
+        let restarted = carried.is_none();
         let from = carried.as_ref().unwrap_or(&start);
-        let held = system.dispatch(Hold { system: &system, from, dwell })?;
-        points.push(SweepPoint { value: *value, restarted: carried.is_none(), ..held.point });
+        let held = match scenario.model.system(set) {
+            Ok(system) => system.dispatch(Hold { system: &system, from, dwell })?,
+            // A value out of its own range is a wrong question; a device that cannot be is a gap.
+            Err(reason @ (ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
+                return Err(reason.into());
+            }
+            Err(_) => Held::nothing(),
+        };
+        points.push(SweepPoint { value: *value, restarted, ..held.point });
         carried = held.end;
     }
     Ok((points, carried))
@@ -116,6 +123,24 @@ pub enum SweepError {
 struct Held {
     point: SweepPoint,
     end: Option<Vec<f64>>,
+}
+
+impl Held {
+    /// What there is of a device that cannot be: pulled in or buckled by its magnets.
+    fn nothing() -> Self {
+        let point = SweepPoint {
+            value: 0.0,
+            strobe: Vec::new(),
+            v_rms: 0.0,
+            v_peak: 0.0,
+            power: 0.0,
+            tip: (0.0, 0.0),
+            period: None,
+            ended: true,
+            restarted: false,
+        };
+        Self { point, end: None }
+    }
 }
 
 struct Hold<'a> {

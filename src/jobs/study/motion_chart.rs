@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Study;
 use super::mosaic::{Mosaic, Place};
-use crate::dynamics::motion::Cell;
+use crate::dynamics::motion::{Cell, Motion};
 use crate::dynamics::signature::Signature;
 pub use crate::jobs::motions::Coordinate;
 use crate::jobs::motions::{MotionPlane, at_place};
@@ -14,9 +14,11 @@ use crate::scenario::{END_TIME, Scenario};
 
 /// Columns and rows a chart may have.
 pub const SIZES: (usize, usize) = (2, 512);
-/// Cells of a piece of work. Two milliseconds a cell where motions are periodic make 15 ms, tori and chaos ten times as
-/// much: little enough to drop when the question changes, long enough not to spend it on messages.
-const PER_PIECE: usize = 8;
+/// Cells of a piece of work where most motions are periodic or end (1.5 ms each with two modes), and where most are
+/// tori or chaotic (15 to 25 ms): some 50 ms either way in the browser, little enough to drop when the question changes,
+/// long enough not to spend it on messages.
+const QUICK_PIECE: usize = 24;
+const SLOW_PIECE: usize = 3;
 
 /// What is charted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -101,6 +103,8 @@ pub struct MotionChart {
     tiles: Mosaic<Tile>,
     /// Places of the pieces handed out.
     pieces: Vec<Vec<Place>>,
+    /// Cells of the next piece.
+    piece: usize,
     failure: Option<String>,
     version: u64,
 }
@@ -109,7 +113,8 @@ impl MotionChart {
     /// An empty chart; the question must be valid.
     pub fn new(question: MotionQuestion) -> Self {
         let (columns, rows) = question.size;
-        Self { tiles: Mosaic::new(columns, rows), question, pieces: Vec::new(), failure: None, version: 0 }
+        let tiles = Mosaic::new(columns, rows);
+        Self { tiles, question, pieces: Vec::new(), piece: SLOW_PIECE, failure: None, version: 0 }
     }
 
     /// What is charted.
@@ -154,6 +159,8 @@ impl MotionChart {
         self.version += 1;
         match finding {
             Ok(Finding::Motions(found)) => {
+                let slow = found.iter().flatten().filter(|signature| is_slow(&signature.cell)).count();
+                self.piece = if 2 * slow > found.len() { SLOW_PIECE } else { QUICK_PIECE };
                 for (place, signature) in places.into_iter().zip(found) {
                     let cell = signature.as_ref().map(|signature| signature.cell);
                     let group = group(signature, self.question.place(place));
@@ -166,12 +173,17 @@ impl MotionChart {
     }
 }
 
+/// Whether a cell was followed for its Lyapunov exponent.
+fn is_slow(cell: &Cell) -> bool {
+    cell.lasts() && !matches!(cell.motion, Motion::Periodic { .. })
+}
+
 impl Study for MotionChart {
     fn next(&mut self) -> Option<(usize, Work)> {
         if self.failure.is_some() {
             return None;
         }
-        let places = self.tiles.hand_out(PER_PIECE, Tile::differs);
+        let places = self.tiles.hand_out(self.piece, Tile::differs);
         if places.is_empty() {
             return None;
         }
@@ -199,7 +211,7 @@ impl Study for MotionChart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::{Horizon, Motion, reach};
+    use crate::dynamics::{Horizon, reach};
     use crate::jobs::study::complete;
     use crate::model::{Parameter, ParameterSet};
 

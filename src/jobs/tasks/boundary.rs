@@ -9,9 +9,10 @@ use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem};
 use crate::scenario::ModelChoice;
 use crate::theory::{CoupledModes, Published, Resonance, TheoryError};
 
-/// Most frequencies of a request: closed formulas take microseconds, Floquet multipliers up to a second.
+/// Most frequencies of a request: closed formulas take microseconds, Floquet multipliers half a millisecond with two
+/// modes and 25 with eight.
 const MOST_CLOSED: usize = 100_000;
-const MOST_FLOQUET: usize = 2_000;
+const MOST_FLOQUET: usize = 10_000;
 /// Allowed limits of the search by multipliers: below the lowest, nothing could be told from nothing.
 const LIMITS: (f64, f64) = (1e-6, Parameter::Beta.range().1);
 
