@@ -207,7 +207,9 @@ fn every_example_of_the_readme_has_an_answer() {
     let readme = include_str!("../README.md");
     let after = |line: &'static str| line.strip_prefix("echo '")?.split_once("' | target/release/harvester");
     let requests: Vec<&str> = readme.lines().filter_map(after).map(|(request, _)| request).collect();
-    for task in ["modes", "boundary", "simulate", "orbit", "chart", "sweep", "verdict", "basin"] {
+    for task in
+        ["modes", "boundary", "simulate", "orbit", "chart", "sweep", "verdict", "basin", "harvest", "find"]
+    {
         let asks = |request: &&&str| request.contains(&format!("\"task\":\"{task}\""));
         assert!(requests.iter().any(|request| asks(&request)), "the README has no example of {task}");
     }
@@ -247,6 +249,16 @@ fn every_example_of_the_readme_has_an_answer() {
             Some("verdict") => assert_eq!(given["motion"]["kind"], "quasiperiodic"),
             Some("basin") => {
                 assert_eq!(given["cells"].as_array().map(|rows| rows.len() as u64), asked["count"].as_u64());
+            }
+            Some("harvest") => {
+                let shaken = given["acceleration"].as_f64().zip(asked["acceleration"].as_f64());
+                assert!(shaken.is_some_and(|(given, asked)| (given / asked - 1.0).abs() < 1e-12));
+                assert!(given["reached"]["harvest"]["defect"].as_f64().is_some_and(|defect| defect < 1e-8));
+            }
+            Some("find") => {
+                let generations = given["history"].as_array().map(|history| history.len() as u64);
+                assert_eq!(generations, asked["generations"].as_u64());
+                assert_eq!(given["evaluation"]["violation"], 0.0);
             }
             other => panic!("{other:?}"),
         }
