@@ -5,7 +5,7 @@ use super::study::Study;
 use super::work::{Finding, Work};
 
 /// Done part of a study that counts as a first picture of it.
-const FIRST_PICTURE: f64 = 0.03;
+const FIRST_PICTURE: f64 = 0.02;
 /// How many workers may die over a piece before it counts as impossible.
 const MOST_DEATHS: u32 = 2;
 

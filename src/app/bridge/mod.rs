@@ -61,11 +61,15 @@ pub fn start() {
     });
 }
 
+/// Time between pictures of work that goes on.
+const BETWEEN_PICTURES: std::time::Duration = std::time::Duration::from_millis(100);
+
 /// A crew of web workers, or of this thread where there can be none.
 fn crew(context: egui::Context) -> Rc<RefCell<Crew>> {
     let taken: workers::Taken = Rc::new(move |crew| {
         exports::settle(&mut crew.borrow_mut());
-        context.request_repaint();
+        // Findings come faster than they need to be drawn.
+        context.request_repaint_after(BETWEEN_PICTURES);
     });
     Rc::new_cyclic(|crew: &Weak<RefCell<Crew>>| {
         let hired = workers::WebWorkers::hire(crew.clone(), taken);

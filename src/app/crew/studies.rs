@@ -8,6 +8,7 @@ use crate::dynamics::tongue::Window;
 use crate::jobs::foreman::{Lane, Traffic};
 use crate::jobs::inspection::Inspection;
 use crate::jobs::response::ResponseCurve;
+use crate::jobs::study::Study;
 use crate::jobs::study::answers::Answers;
 use crate::jobs::study::basin::Basin;
 use crate::jobs::study::curves::CurvesStudy;
@@ -82,15 +83,30 @@ impl Studies {
     pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; 9] {
         [
             &mut self.answers,
-            &mut self.inspection,
             &mut self.tongues,
+            &mut self.inspection,
+            &mut self.multipliers,
             &mut self.response,
             &mut self.sweep,
             &mut self.curves,
-            &mut self.multipliers,
             &mut self.motions,
             &mut self.basin,
         ]
+    }
+
+    /// Whether anything is under way or waits to be, besides requests from outside.
+    pub(in crate::app) fn is_busy(&self) -> bool {
+        fn open<S: Study>(lane: &Lane<S>) -> bool {
+            lane.study().is_some_and(|study| !study.finished())
+        }
+        open(&self.tongues)
+            || open(&self.inspection)
+            || open(&self.multipliers)
+            || open(&self.response)
+            || open(&self.sweep)
+            || open(&self.curves)
+            || open(&self.motions)
+            || open(&self.basin)
     }
 
     /// Names and done parts, 0 to 1, of what is under way.

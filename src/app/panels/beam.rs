@@ -63,6 +63,8 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         context.commands.push(Command::MoveBeam(!context.view.beam_moves));
     }
     if moves {
-        ui.ctx().request_repaint_after(std::time::Duration::from_millis(33));
+        // Every frame takes time from the workers where there are few cores.
+        let pause = if context.studies.is_busy() { 160 } else { 33 };
+        ui.ctx().request_repaint_after(std::time::Duration::from_millis(pause));
     }
 }
