@@ -10,6 +10,8 @@ use crate::scenario::Scenario;
 
 /// Columns and rows of the first, coarse picture.
 const FIRST: (usize, usize) = (16, 24);
+/// Share of the progress that the coarse picture is.
+const FIRST_SHARE: f64 = 0.02;
 /// Multipliers a piece of work computes, about.
 const PER_PIECE: usize = 768;
 /// Columns and rows a chart may have.
@@ -219,7 +221,10 @@ impl Study for MultiplierChart {
     }
 
     fn progress(&self) -> f64 {
-        self.known as f64 / self.fine.len() as f64
+        let columns = self.fine.len();
+        let first = columns.div_ceil(self.stride());
+        let pictured = self.coarse.iter().flatten().count() as f64 / first as f64;
+        FIRST_SHARE * pictured + (1.0 - FIRST_SHARE) * self.known as f64 / columns as f64
     }
 
     fn finished(&self) -> bool {
