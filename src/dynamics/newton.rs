@@ -12,6 +12,9 @@ use crate::model::{ReducedSystem, RestForce};
 const MAX_ITERATIONS: usize = 40;
 /// A correction below this fraction of the gap is the last one: the next would be its square.
 const SETTLED: f64 = 1e-10;
+/// Close to a fold corrections shrink no further than the rounding of the defect allows: iterations from which, and defect
+/// and correction below which, the orbit counts as found. Its state is then good to that correction only.
+const STALLED: (usize, f64, f64) = (12, 1e-11, 1e-6);
 /// How often a step that does not reduce the defect is halved.
 const MAX_HALVINGS: usize = 8;
 /// How often the grid is doubled for a guess that it cannot follow at all.
@@ -88,7 +91,10 @@ impl<F: RestForce> OrbitSolver<F> {
                 continue;
             }
             let correction = self.correction()?;
-            if self.largest(&correction) <= SETTLED && error <= 1.0 {
+            let stalled = iterations >= STALLED.0
+                && self.residual <= STALLED.1
+                && self.largest(&correction) <= STALLED.2;
+            if (self.largest(&correction) <= SETTLED || stalled) && error <= 1.0 {
                 self.add(&correction, 1.0);
                 return Ok(Convergence { iterations, residual: self.residual });
             }
