@@ -28,7 +28,7 @@ serve: build ## build the page and serve it on http://127.0.0.1:8080/ (PORT=...)
 
 build: ## build the page into dist/, ready for any static host (first time 5-15 minutes, with its tools)
 	@scripts/tools.sh page
-	trunk build --release
+	trunk build --release --cargo-profile page
 
 dev: ## build the page quickly into target/page-dev-dist/ (not optimised by wasm-opt)
 	@scripts/tools.sh dev

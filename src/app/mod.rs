@@ -87,6 +87,13 @@ impl App {
         }
     }
 
+    /// Gives the crew what the view asks for now, without waiting for the next frame.
+    fn follow(&mut self) {
+        let mut crew = self.crew.borrow_mut();
+        crew.studies.follow(&self.view, &self.session);
+        crew.hand_out();
+    }
+
     /// Draws one frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
@@ -100,13 +107,14 @@ impl App {
         };
         draw(&mut context, self.notice.as_deref(), ui);
         drop(crew);
-        let asked = !commands.is_empty();
+        if commands.is_empty() {
+            return;
+        }
         for command in commands {
             self.carry_out(command);
         }
-        if asked {
-            ui.ctx().request_repaint();
-        }
+        self.follow();
+        ui.ctx().request_repaint();
     }
 
     fn carry_out(&mut self, command: Command) {
@@ -184,10 +192,10 @@ impl App {
     /// # Errors
     /// One line that says what is wrong; nothing changes then.
     pub fn load_json(&mut self, json: &str) -> Result<(), String> {
-        let view = report::parse(json, &self.view)?;
-        view.scenario.validate().map_err(|error| error.to_string())?;
+        let view = View::read(json, &self.view)?;
         self.view = View { scenario: self.view.scenario.clone(), ..view.clone() };
         self.show(view.scenario);
+        self.follow();
         Ok(())
     }
 

@@ -1,7 +1,6 @@
 //! State and results as JSON, for `window.harvester` and its users.
 
 use serde::Serialize;
-use serde_json::Value;
 
 use super::crew::Studies;
 use super::session::{Session, Status};
@@ -76,24 +75,4 @@ pub(super) fn state(view: &View, session: &Session, studies: &mut Studies) -> St
         progress,
     };
     serde_json::to_string(&state).unwrap_or_default()
-}
-
-/// Reads a view, or a scenario alone, which leaves the rest of `present` as it is.
-///
-/// # Errors
-/// One line with the path of the field and what is wrong with it.
-pub(super) fn parse(json: &str, present: &View) -> Result<View, String> {
-    let value: Value = serde_json::from_str(json).map_err(|error| format!("not valid JSON: {error}"))?;
-    if !value.is_object() {
-        return Err("expected an object such as {\"parameters\":{\"omega\":25}}".to_owned());
-    }
-    let is_view = value.get("scenario").is_some();
-    let describe =
-        |error: serde_path_to_error::Error<serde_json::Error>| format!("{}: {}", error.path(), error.inner());
-    if is_view {
-        serde_path_to_error::deserialize(value).map_err(describe)
-    } else {
-        let scenario = serde_path_to_error::deserialize(value).map_err(describe)?;
-        Ok(View { scenario, ..present.clone() })
-    }
 }

@@ -1,6 +1,7 @@
 //! What the user chose: the scenario and how it is looked at. This is what the page remembers.
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::figures::{self, Figure};
 use crate::dynamics::sweep::Dwell;
@@ -188,13 +189,33 @@ impl Default for View {
 }
 
 impl View {
+    /// Reads a view, or a scenario alone, which leaves the rest of `present` as it is.
+    ///
+    /// # Errors
+    /// One line with the path of the field and what is wrong with it.
+    pub fn read(json: &str, present: &Self) -> Result<Self, String> {
+        let value: Value = serde_json::from_str(json).map_err(|error| format!("not valid JSON: {error}"))?;
+        if !value.is_object() {
+            return Err("expected an object such as {\"parameters\":{\"omega\":25}}".to_owned());
+        }
+        let is_view = value.get("scenario").is_some();
+        let describe = |error: serde_path_to_error::Error<serde_json::Error>| {
+            format!("{}: {}", error.path(), error.inner())
+        };
+        let view: Self = if is_view {
+            serde_path_to_error::deserialize(value).map_err(describe)?
+        } else {
+            let scenario = serde_path_to_error::deserialize(value).map_err(describe)?;
+            Self { scenario, ..present.clone() }
+        };
+        view.scenario.validate().map_err(|error| error.to_string())?;
+        Ok(view)
+    }
+
     /// What an earlier session stored, and a sentence about it when it cannot be used.
     pub fn restore(stored: Option<&str>) -> (Self, Option<String>) {
         let Some(text) = stored else { return (Self::default(), None) };
-        let view = serde_json::from_str::<Self>(text)
-            .map_err(|error| error.to_string())
-            .and_then(|view| view.scenario.validate().map(|_| view).map_err(|error| error.to_string()));
-        match view {
+        match Self::read(text, &Self::default()) {
             Ok(view) => (view, None),
             Err(reason) => {
                 let message =

@@ -95,6 +95,8 @@ pub trait Traffic {
     fn take_back(&mut self, generation: u64, piece: Piece);
     /// Done part, 0 to 1; `None` when nothing is being computed.
     fn progress(&self) -> Option<f64>;
+    /// Whether the next piece is of a first, coarse picture that takes milliseconds.
+    fn is_sketched(&self) -> bool;
 }
 
 /// A piece of work with its ticket and how often it has killed its worker.
@@ -144,6 +146,10 @@ impl<S: Study> Traffic for Lane<S> {
     fn progress(&self) -> Option<f64> {
         self.study.as_ref().filter(|study| !study.finished()).map(Study::progress)
     }
+
+    fn is_sketched(&self) -> bool {
+        self.redo.is_empty() && self.study.as_ref().is_some_and(|study| !study.finished() && study.sketches())
+    }
 }
 
 /// What a worker is doing.
@@ -168,9 +174,9 @@ impl Foreman {
         Self { busy: vec![None; workers], handed: 0 }
     }
 
-    /// The next piece for an idle worker and the number under which it is to be returned: from the first of the
-    /// `urgent` lanes that has one, else from the first of the others that has no first picture yet, else from the
-    /// first of the others.
+    /// The next piece for an idle worker and the number under which it is to be returned: from a lane that is being
+    /// sketched, else from the first of the `urgent` lanes that has one, else from the first of the others that has no
+    /// first picture yet, else from the first of the others.
     pub fn assign(
         &mut self,
         worker: usize,
@@ -181,6 +187,7 @@ impl Foreman {
         let mut order: Vec<usize> = (0..lanes.len()).collect();
         let pictured = |lane: &usize| lanes[*lane].progress().is_none_or(|done| done >= FIRST_PICTURE);
         order[urgent.min(lanes.len())..].sort_by_key(pictured);
+        order.sort_by_key(|lane| !lanes[*lane].is_sketched());
         for lane in order {
             let traffic = &mut lanes[lane];
             if let Some(piece) = traffic.next() {

@@ -103,7 +103,12 @@ impl Page {
 
     /// Runs JavaScript; a promise is waited for.
     pub(crate) fn script(&self, script: &str) -> Value {
-        self.browser.run(self.browser.client().execute(script, vec![]))
+        self.script_with(script, vec![])
+    }
+
+    /// The same with arguments.
+    pub(crate) fn script_with(&self, script: &str, arguments: Vec<Value>) -> Value {
+        self.browser.run(self.browser.client().execute(script, arguments))
     }
 
     /// Calls a function of `window.harvester`: what it answers, or the message of its refusal.

@@ -27,14 +27,14 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui, panels: &[Panel]) {
     if let Some(panel) = context.view.enlarged.filter(|panel| panels.contains(panel)) {
         let height = ui.available_height().max(LEAST_HEIGHT);
-        place(ui, ui.available_width(), height, |ui| draw(context, ui, panel));
+        place(ui, ui.available_width(), height, &mut |ui| draw(context, ui, panel));
         return;
     }
-    grid(ui, panels, |ui, panel| draw(context, ui, *panel));
+    grid(ui, panels, &mut |ui, panel| draw(context, ui, *panel));
 }
 
 /// Lays out cards of equal size in one or two columns that fill the page, or more when it is low.
-pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], mut draw: impl FnMut(&mut Ui, &T)) {
+pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], draw: &mut dyn FnMut(&mut Ui, &T)) {
     let columns = if ui.available_width() >= TWO_COLUMNS { 2 } else { 1 };
     let rows = cards.len().div_ceil(columns);
     let width = ((ui.available_width() - GAP * (columns - 1) as f32) / columns as f32).floor();
@@ -46,13 +46,13 @@ pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], mut draw: impl FnMut(&mut Ui, &T
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing = vec2(GAP, 0.0);
             for card in row {
-                place(ui, width, height, |ui| draw(ui, card));
+                place(ui, width, height, &mut |ui| draw(ui, card));
             }
         });
     }
 }
 
-fn place(ui: &mut Ui, width: f32, height: f32, draw: impl FnOnce(&mut Ui)) {
+fn place(ui: &mut Ui, width: f32, height: f32, draw: &mut dyn FnMut(&mut Ui)) {
     ui.allocate_ui(vec2(width, height), |ui| {
         ui.set_min_size(vec2(width, height));
         ui.set_max_size(vec2(width, height));

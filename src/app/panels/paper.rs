@@ -25,7 +25,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Some(boundaries) => figure_boundaries::show(context, ui, &boundaries),
         None => {
             let panels = figure_panels::panels(figure);
-            explore::grid(ui, panels, |ui, panel| figure_panels::show(context, ui, figure, *panel));
+            explore::grid(ui, panels, &mut |ui, panel| figure_panels::show(context, ui, figure, *panel));
         }
     }
 }

@@ -69,9 +69,18 @@ impl<'a> Card<'a> {
 
     /// Draws the card; the contents get the rectangle under the title.
     pub fn show<R>(self, ui: &mut Ui, add_contents: impl FnOnce(&mut Ui) -> R) -> CardResponse<R> {
+        let (rect, background, mut child) = self.begin(ui);
+        let inner = add_contents(&mut child);
+        let (pressed, rect) = self.end(ui, &child, rect, background);
+        CardResponse { inner, pressed, rect }
+    }
+
+    /// Reserves the card's place: its rectangle, its background to be drawn, and where its contents go.
+    #[inline(never)]
+    fn begin(&self, ui: &mut Ui) -> (Rect, egui::layers::ShapeIdx, Ui) {
         let available = ui.available_rect_before_wrap();
         let height = self.height.unwrap_or(available.height()).max(TITLE_ROW + 2.0 * MARGIN);
-        let mut rect = Rect::from_min_size(available.min, vec2(available.width(), height));
+        let rect = Rect::from_min_size(available.min, vec2(available.width(), height));
         let background = ui.painter().add(egui::Shape::Noop);
         let top = if self.title.is_empty() { MARGIN } else { TITLE_ROW };
         let body = Rect::from_min_max(rect.min + vec2(MARGIN, top), rect.max - vec2(MARGIN, MARGIN));
@@ -81,7 +90,18 @@ impl<'a> Card<'a> {
         if !self.hugging {
             child.shrink_clip_rect(rect);
         }
-        let inner = add_contents(&mut child);
+        (rect, background, child)
+    }
+
+    /// Draws the frame around the contents.
+    #[inline(never)]
+    fn end(
+        &self,
+        ui: &mut Ui,
+        child: &Ui,
+        mut rect: Rect,
+        background: egui::layers::ShapeIdx,
+    ) -> (Option<Icon>, Rect) {
         if self.hugging {
             rect.max.y = child.min_rect().bottom() + MARGIN;
         }
@@ -98,7 +118,7 @@ impl<'a> Card<'a> {
         ui.painter().set(background, shape);
         let pressed = if self.title.is_empty() { None } else { self.title_row(ui, rect) };
         ui.allocate_rect(rect, Sense::hover());
-        CardResponse { inner, pressed, rect }
+        (pressed, rect)
     }
 
     fn title_row(&self, ui: &Ui, rect: Rect) -> Option<Icon> {

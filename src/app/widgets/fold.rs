@@ -43,6 +43,16 @@ impl<'a> Fold<'a> {
 
     /// Draws the header, and the contents when open; returns what they returned.
     pub fn show<R>(self, ui: &mut Ui, add_contents: impl FnOnce(&mut Ui) -> R) -> Option<R> {
+        let mut state = self.header(ui);
+        let body = state.show_body_unindented(ui, |ui| {
+            let margin = egui::Margin { left: 4, right: 2, top: 2, bottom: 8 };
+            egui::Frame::NONE.inner_margin(margin).show(ui, add_contents).inner
+        });
+        body.map(|shown| shown.inner)
+    }
+
+    #[inline(never)]
+    fn header(&self, ui: &mut Ui) -> CollapsingState {
         let tokens = theme::tokens(ui);
         let id = ui.make_persistent_id(("fold", self.name));
         let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, self.open);
@@ -71,11 +81,7 @@ impl<'a> Fold<'a> {
         let free = Rect::from_min_max(pos2(name.right() + 12.0, rect.top()), rect.max - vec2(10.0, 0.0));
         paint_summary(ui, free, self.summary);
         response.on_hover_cursor(egui::CursorIcon::PointingHand);
-        let body = state.show_body_unindented(ui, |ui| {
-            let margin = egui::Margin { left: 4, right: 2, top: 2, bottom: 8 };
-            egui::Frame::NONE.inner_margin(margin).show(ui, add_contents).inner
-        });
-        body.map(|shown| shown.inner)
+        state
     }
 }
 

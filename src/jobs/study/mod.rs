@@ -34,6 +34,11 @@ pub trait Study {
 
     /// Whether everything asked for is there, or failed.
     fn finished(&self) -> bool;
+
+    /// Whether the next piece is of a first, coarse picture that takes milliseconds: it goes before everything else.
+    fn sketches(&self) -> bool {
+        false
+    }
 }
 
 /// Carries out a whole study: natively on all cores, in the browser one piece after the other.

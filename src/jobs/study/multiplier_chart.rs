@@ -151,6 +151,11 @@ impl MultiplierChart {
         (self.question.size.0 / FIRST.0).max(1)
     }
 
+    /// Columns of the coarse picture that nobody has yet.
+    fn coarse_left(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.handed_coarse.len()).step_by(self.stride()).filter(|i| !self.handed_coarse[*i])
+    }
+
     /// Columns on multiples of `stride` that nobody has yet, those between unlike neighbours first.
     fn columns_at(&self, stride: usize, most: usize) -> Vec<usize> {
         let free: Vec<usize> = (0..self.handed.len()).step_by(stride).filter(|i| !self.handed[*i]).collect();
@@ -178,9 +183,7 @@ impl Study for MultiplierChart {
             return None;
         }
         let stride = self.stride();
-        let coarse_left =
-            (0..self.handed_coarse.len()).step_by(stride).filter(|i| !self.handed_coarse[*i]).take(4);
-        let mut columns: Vec<usize> = coarse_left.collect();
+        let mut columns: Vec<usize> = self.coarse_left().take(4).collect();
         let coarse = !columns.is_empty();
         let mut finer = stride;
         while columns.is_empty() && finer >= 1 {
@@ -229,6 +232,10 @@ impl Study for MultiplierChart {
 
     fn finished(&self) -> bool {
         self.failure.is_some() || self.known == self.fine.len()
+    }
+
+    fn sketches(&self) -> bool {
+        self.coarse_left().next().is_some()
     }
 }
 
