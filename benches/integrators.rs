@@ -7,8 +7,7 @@ use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use divan::{Bencher, black_box};
 use harvester_lab::dynamics::rk4::{PAPER_STEPS_PER_PERIOD, RungeKutta4};
 use harvester_lab::dynamics::{Collocation, Settings, Trajectory};
-use harvester_lab::model::reduced::ForceVisitor;
-use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem, RestForce};
+use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 
 /// The state of the quadratic two-mode system at the end, by two independent integrators that agree in every digit.
 const FIGURE_4: [f64; 5] = [1.2365676944e-2, 2.2433281133e-2, 8.7696801325e-2, 5.8895944582e-1, 27.811225437];
@@ -27,30 +26,19 @@ fn end_time(system: &ReducedSystem) -> f64 {
 }
 
 /// A run by the collocation that keeps the last state only.
-struct Ours<'a>(&'a ReducedSystem, f64);
-
-impl ForceVisitor for Ours<'_> {
-    type Output = Vec<f64>;
-    fn visit<F: RestForce + 'static>(self, force: F) -> Vec<f64> {
-        let Self(system, tolerance) = self;
-        let initial = vec![0.0; system.dimension()];
-        let mut run = Collocation::new(system, force, &initial, Settings { tolerance }).expect("from rest");
-        run.advance(end_time(system), usize::MAX, |_| ()).expect("a resolvable motion");
-        run.state().to_vec()
-    }
+fn ours(system: &ReducedSystem, tolerance: f64) -> Vec<f64> {
+    let initial = vec![0.0; system.dimension()];
+    let mut run = Collocation::new(system, &initial, Settings { tolerance }).expect("from rest");
+    run.advance(end_time(system), usize::MAX, |_| ()).expect("a resolvable motion");
+    run.state().to_vec()
 }
 
-struct Paper<'a>(&'a ReducedSystem);
-
-impl ForceVisitor for Paper<'_> {
-    type Output = Vec<f64>;
-    fn visit<F: RestForce + 'static>(self, force: F) -> Vec<f64> {
-        let mut run = RungeKutta4::new(self.0, force, &[0.0; 5], PAPER_STEPS_PER_PERIOD).expect("from rest");
-        for _ in 0..PAPER_STEPS {
-            run.step();
-        }
-        run.state().to_vec()
+fn paper(system: &ReducedSystem) -> Vec<f64> {
+    let mut run = RungeKutta4::new(system, &[0.0; 5], PAPER_STEPS_PER_PERIOD).expect("from rest");
+    for _ in 0..PAPER_STEPS {
+        run.step();
     }
+    run.state().to_vec()
 }
 
 /// The quadratic two-mode system written out by hand for the other crate's integrator.
@@ -106,7 +94,7 @@ const DOP853_TOLERANCE: f64 = 1e-11;
 #[divan::bench]
 fn collocation(bencher: Bencher<'_, '_>) {
     let system = figure_4(2, ForceLaw::Quadratic);
-    bencher.bench(|| system.dispatch(Ours(black_box(&system), Settings::default().tolerance)));
+    bencher.bench(|| ours(black_box(&system), Settings::default().tolerance));
 }
 
 #[divan::bench]
@@ -119,13 +107,13 @@ fn collocation_recorded(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn collocation_exact_law(bencher: Bencher<'_, '_>) {
     let system = figure_4(2, ForceLaw::Exact);
-    bencher.bench(|| system.dispatch(Ours(black_box(&system), Settings::default().tolerance)));
+    bencher.bench(|| ours(black_box(&system), Settings::default().tolerance));
 }
 
 #[divan::bench]
 fn collocation_exact_law_eight_modes(bencher: Bencher<'_, '_>) {
     let system = figure_4(8, ForceLaw::Exact);
-    bencher.bench(|| system.dispatch(Ours(black_box(&system), Settings::default().tolerance)));
+    bencher.bench(|| ours(black_box(&system), Settings::default().tolerance));
 }
 
 #[divan::bench(sample_count = 20)]
@@ -137,7 +125,7 @@ fn dop853_of_differential_equations(bencher: Bencher<'_, '_>) {
 #[divan::bench(sample_count = 3)]
 fn the_papers_runge_kutta(bencher: Bencher<'_, '_>) {
     let system = figure_4(2, ForceLaw::Quadratic);
-    bencher.bench(|| system.dispatch(Paper(black_box(&system))));
+    bencher.bench(|| paper(black_box(&system)));
 }
 
 fn largest_error(state: &[f64], reference: &[f64]) -> f64 {
@@ -162,25 +150,25 @@ fn table() {
     println!("{:<42} {:>10} {:>10}   error", "", "min [ms]", "median");
     let system = figure_4(2, ForceLaw::Quadratic);
     let tolerance = Settings::default().tolerance;
-    line("collocation", 201, &FIGURE_4, || system.dispatch(Ours(&system, tolerance)));
+    line("collocation", 201, &FIGURE_4, || ours(&system, tolerance));
     line("collocation, recorded", 101, &FIGURE_4, || {
         let run = Trajectory::compute(&system, &[0.0; 5], end_time(&system), Settings::default());
         run.map(|run| run.final_state().to_vec()).unwrap_or_default()
     });
     line("DOP853 of differential-equations", 21, &FIGURE_4, || dop853(&system, DOP853_TOLERANCE));
-    line("the paper's Runge-Kutta", 3, &FIGURE_4, || system.dispatch(Paper(&system)));
+    line("the paper's Runge-Kutta", 3, &FIGURE_4, || paper(&system));
     // For the other systems the error is the difference from a run at a hundred times tighter tolerance.
     for modes in [2, 8] {
         let system = figure_4(modes, ForceLaw::Exact);
-        let reference = system.dispatch(Ours(&system, 0.01 * tolerance));
+        let reference = ours(&system, 0.01 * tolerance);
         let name = format!("collocation, exact law, {modes} modes");
-        line(&name, 51, &reference, || system.dispatch(Ours(&system, tolerance)));
+        line(&name, 51, &reference, || ours(&system, tolerance));
     }
 }
 
 fn main() {
     let system = figure_4(2, ForceLaw::Quadratic);
-    let error = largest_error(&system.dispatch(Ours(&system, Settings::default().tolerance)), &FIGURE_4);
+    let error = largest_error(&ours(&system, Settings::default().tolerance), &FIGURE_4);
     assert!(error <= 1e-8, "the collocation ends {error:e} away from the exact motion");
     if std::env::args().any(|argument| argument == "--table") {
         table();

@@ -3,8 +3,7 @@
 use harvester_lab::dynamics::rk4::RungeKutta4;
 use harvester_lab::dynamics::{Outcome, Settings, Trajectory};
 use harvester_lab::model::energy::{energy, powers};
-use harvester_lab::model::reduced::ForceVisitor;
-use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem, RestForce};
+use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 use harvester_lab::theory::LinearResponse;
 use nalgebra::DMatrix;
 
@@ -84,29 +83,23 @@ fn energy_changes_by_the_work_done_along_the_collocation() {
 
 /// A run by the classical method, which integrates the work as well, by the same method's quadrature (Simpson's rule
 /// on pairs of steps).
-struct Classical<'a>(&'a ReducedSystem, &'a [f64], u32, u32);
-
-impl ForceVisitor for Classical<'_> {
-    type Output = (Vec<f64>, f64);
-    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-        let Self(system, initial, steps_per_period, pairs) = self;
-        let mut run = RungeKutta4::new(system, force, initial, steps_per_period).expect("a valid start");
-        let h = run.step_length();
-        let net = |time: f64, state: &[f64]| {
-            let power = powers(system, state, (system.parameters.omega * time).sin());
-            power.input - power.viscous - power.electrical
-        };
-        let mut work = 0.0;
-        for _ in 0..pairs {
-            let mut weighted = net(run.time(), run.state());
-            assert_eq!(run.step(), None);
-            weighted += 4.0 * net(run.time(), run.state());
-            assert_eq!(run.step(), None);
-            weighted += net(run.time(), run.state());
-            work += weighted * h / 3.0;
-        }
-        (run.state().to_vec(), work)
+fn classical(system: &ReducedSystem, initial: &[f64], steps_per_period: u32, pairs: u32) -> (Vec<f64>, f64) {
+    let mut run = RungeKutta4::new(system, initial, steps_per_period).expect("a valid start");
+    let h = run.step_length();
+    let net = |time: f64, state: &[f64]| {
+        let power = powers(system, state, (system.parameters.omega * time).sin());
+        power.input - power.viscous - power.electrical
+    };
+    let mut work = 0.0;
+    for _ in 0..pairs {
+        let mut weighted = net(run.time(), run.state());
+        assert_eq!(run.step(), None);
+        weighted += 4.0 * net(run.time(), run.state());
+        assert_eq!(run.step(), None);
+        weighted += net(run.time(), run.state());
+        work += weighted * h / 3.0;
     }
+    (run.state().to_vec(), work)
 }
 
 #[test]
@@ -117,7 +110,7 @@ fn energy_changes_by_the_work_done_along_the_classical_method() {
             let system = system(set, modes, law);
             let initial = displaced(&system, -0.05);
             // Four periods of the excitation.
-            let (state, work) = system.dispatch(Classical(&system, &initial, steps, 2 * steps));
+            let (state, work) = classical(&system, &initial, steps, 2 * steps);
             let change = energy(&system, &state) - energy(&system, &initial);
             let error = (change - work) / energy(&system, &initial);
             assert!(error.abs() < 1e-9, "{law:?} N = {modes}: {error:e}");

@@ -4,8 +4,7 @@
 use harvester_lab::dynamics::rk4::RungeKutta4;
 use harvester_lab::dynamics::{IntegrationError, Outcome, Settings, Trajectory};
 use harvester_lab::jobs::solve;
-use harvester_lab::model::reduced::ForceVisitor;
-use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem, RestForce};
+use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 use serde_json::Value;
 
 fn system(set: ParameterSet, modes: usize, law: ForceLaw) -> ReducedSystem {
@@ -29,20 +28,19 @@ fn collocation(system: &ReducedSystem, initial: &[f64], t_end: f64, tolerance: f
 }
 
 /// The classical method over whole excitation periods.
-struct Classical<'a>(&'a ReducedSystem, &'a [f64], u32, u32);
-
-impl ForceVisitor for Classical<'_> {
-    type Output = (Vec<f64>, Option<Outcome>);
-    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-        let Self(system, initial, steps_per_period, periods) = self;
-        let mut run = RungeKutta4::new(system, force, initial, steps_per_period).expect("a valid start");
-        let ended = (0..steps_per_period * periods).find_map(|_| run.step());
-        (run.state().to_vec(), ended)
-    }
+fn classical_run(
+    system: &ReducedSystem,
+    initial: &[f64],
+    steps_per_period: u32,
+    periods: u32,
+) -> (Vec<f64>, Option<Outcome>) {
+    let mut run = RungeKutta4::new(system, initial, steps_per_period).expect("a valid start");
+    let ended = (0..steps_per_period * periods).find_map(|_| run.step());
+    (run.state().to_vec(), ended)
 }
 
 fn classical(system: &ReducedSystem, initial: &[f64], steps: u32, periods: u32) -> Vec<f64> {
-    let (state, ended) = system.dispatch(Classical(system, initial, steps, periods));
+    let (state, ended) = classical_run(system, initial, steps, periods);
     assert_eq!(ended, None);
     state
 }
@@ -158,7 +156,7 @@ fn figure_12_escapes_at_the_same_time_by_both_methods() {
     let set = ParameterSet { alpha: 1e-4, beta: 1e-2, omega: 2.0 * 21.3562434253049, ..Default::default() };
     let system = system(set, 2, ForceLaw::Quadratic);
     let run = Trajectory::compute(&system, &[0.0; 5], 100.0, Settings::default()).expect("a run");
-    let (_, ended) = system.dispatch(Classical(&system, &[0.0; 5], 10_000, 20));
+    let (_, ended) = classical_run(&system, &[0.0; 5], 10_000, 20);
     match (run.outcome, ended) {
         (Outcome::Escaped { time }, Some(Outcome::Escaped { time: other })) => {
             // Grids differ, and |s| = 10 is passed within a fraction of a step.
@@ -176,7 +174,7 @@ fn attracting_magnets_touch_when_the_tip_is_thrown_at_them() {
     let mut initial = vec![0.0; 5];
     initial[2] = -3.0;
     let run = Trajectory::compute(&system, &initial, 50.0, Settings::default()).expect("contact is a result");
-    let (_, ended) = system.dispatch(Classical(&system, &initial, 200_000, 2));
+    let (_, ended) = classical_run(&system, &initial, 200_000, 2);
     match (run.outcome, ended) {
         (Outcome::Contact { time }, Some(Outcome::Contact { time: other })) => {
             assert!((time - other).abs() < 1e-3 * other, "{time} {other}");

@@ -5,8 +5,7 @@
 use harvester_lab::dynamics::lyapunov::{LEAST_PERIODS, Progress, Sign};
 use harvester_lab::dynamics::rk4::RungeKutta4;
 use harvester_lab::dynamics::{Exponent, Horizon, Lyapunov, Orbit, Outcome, Settings, Trajectory, reach};
-use harvester_lab::model::reduced::ForceVisitor;
-use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem, RestForce};
+use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 
 type TestResult = Result<(), Box<dyn std::error::Error>>;
 type Answer<T> = Result<T, Box<dyn std::error::Error>>;
@@ -82,63 +81,34 @@ fn on_the_torus_of_figure_4_it_is_zero() -> TestResult {
 }
 
 /// Growth of the distance between two Runge-Kutta runs, brought back to its first size once a period.
-struct Divergence<'a> {
-    system: &'a ReducedSystem,
-    state: Vec<f64>,
-    periods: usize,
-    steps: u32,
-}
-
-impl ForceVisitor for Divergence<'_> {
-    type Output = Vec<f64>;
-    fn visit<F: RestForce + 'static>(self, _: F) -> Vec<f64> {
-        let first = &self.system.modes[0];
-        let volt = first.omega * (first.eta2 / self.system.parameters.c).sqrt();
-        let omega = |k: usize| self.system.modes[k].omega;
-        let scales = [1.0, 1.0, omega(0), omega(1), volt];
-        let distance = |a: &[f64], b: &[f64]| -> f64 {
-            a.iter().zip(b).zip(scales).map(|((a, b), scale)| ((a - b) / scale).powi(2)).sum::<f64>().sqrt()
-        };
-        let lap = |state: &[f64]| {
-            let force = self.system.rest_force();
-            let mut run =
-                RungeKutta4::new(self.system, Behind(force), state, self.steps).expect("a finite state");
-            for _ in 0..self.steps {
-                assert!(run.step().is_none());
-            }
-            run.state().to_vec()
-        };
-        let size = 1e-7;
-        let mut here = self.state.clone();
-        let mut beside: Vec<f64> =
-            here.iter().zip(scales).map(|(x, scale)| x + size * scale / 5.0_f64.sqrt()).collect();
-        (0..self.periods)
-            .map(|_| {
-                here = lap(&here);
-                let moved = lap(&beside);
-                let growth = distance(&moved, &here) / size;
-                beside = here.iter().zip(&moved).map(|(a, b)| a + (b - a) / growth).collect();
-                growth.ln()
-            })
-            .collect()
-    }
-}
-
-struct Behind(Box<dyn RestForce>);
-
-impl RestForce for Behind {
-    fn rest(&self, s: f64) -> f64 {
-        self.0.rest(s)
-    }
-    fn slope(&self, s: f64) -> f64 {
-        self.0.slope(s)
-    }
-    fn potential(&self, s: f64) -> f64 {
-        self.0.potential(s)
-    }
-    fn contact(&self) -> Option<f64> {
-        self.0.contact()
-    }
+fn divergence(system: &ReducedSystem, state: &[f64], periods: usize, steps: u32) -> Vec<f64> {
+    let first = &system.modes[0];
+    let volt = first.omega * (first.eta2 / system.parameters.c).sqrt();
+    let omega = |k: usize| system.modes[k].omega;
+    let scales = [1.0, 1.0, omega(0), omega(1), volt];
+    let distance = |a: &[f64], b: &[f64]| -> f64 {
+        a.iter().zip(b).zip(scales).map(|((a, b), scale)| ((a - b) / scale).powi(2)).sum::<f64>().sqrt()
+    };
+    let lap = |state: &[f64]| {
+        let mut run = RungeKutta4::new(system, state, steps).expect("a finite state");
+        for _ in 0..steps {
+            assert!(run.step().is_none());
+        }
+        run.state().to_vec()
+    };
+    let size = 1e-7;
+    let mut here = state.to_vec();
+    let mut beside: Vec<f64> =
+        here.iter().zip(scales).map(|(x, scale)| x + size * scale / 5.0_f64.sqrt()).collect();
+    (0..periods)
+        .map(|_| {
+            here = lap(&here);
+            let moved = lap(&beside);
+            let growth = distance(&moved, &here) / size;
+            beside = here.iter().zip(&moved).map(|(a, b)| a + (b - a) / growth).collect();
+            growth.ln()
+        })
+        .collect()
 }
 
 #[test]
@@ -152,8 +122,7 @@ fn on_a_chaotic_motion_it_is_the_divergence_of_runge_kutta_runs() -> TestResult 
         assert_eq!(found.sign(), Sign::Positive, "{found:?}");
         assert!(found.converged, "{found:?}");
 
-        let state = run.final_state().to_vec();
-        let growth = system.dispatch(Divergence { system: &system, state, periods: 1200, steps: 2000 });
+        let growth = divergence(&system, run.final_state(), 1200, 2000);
         let rates: Vec<f64> =
             growth.chunks_exact(150).map(|block| block.iter().sum::<f64>() / (150.0 * period)).collect();
         let mean = rates.iter().sum::<f64>() / rates.len() as f64;

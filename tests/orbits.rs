@@ -4,8 +4,7 @@
 
 use harvester_lab::dynamics::{Instability, Orbit, OrbitError, PeriodMap, Settings, Trajectory};
 use harvester_lab::jobs::Run;
-use harvester_lab::model::reduced::ForceVisitor;
-use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem, RestForce};
+use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 use harvester_lab::scenario::{ModelChoice, Scenario};
 use harvester_lab::theory::LinearResponse;
 use harvester_lab::theory::spectrum::eigenvalues;
@@ -117,46 +116,40 @@ fn liouville_holds_for_every_law_and_number_of_modes() -> TestResult {
     Ok(())
 }
 
-struct Differences<'a>(&'a ReducedSystem, usize);
-
-impl ForceVisitor for Differences<'_> {
-    type Output = Result<f64, OrbitError>;
-    /// Largest deviation of the map's derivative from central differences, in comparable components.
-    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-        let Self(system, periods) = self;
-        let mut map = PeriodMap::new(system, force);
-        map.refine()?;
-        let beta = system.parameters.beta;
-        let n = map.dimension();
-        let scales = map.scales().to_vec();
-        let state: Vec<f64> = (0..n).map(|i| 0.01 * scales[i] * (1.0 + i as f64).sin()).collect();
-        let mut image = |state: &[f64], beta: f64| {
-            map.apply(state, beta, periods, |_, _| ())?;
-            Ok::<Vec<f64>, OrbitError>(map.image().to_vec())
+/// Largest deviation of the map's derivative from central differences, in comparable components.
+fn largest_deviation(system: &ReducedSystem, periods: usize) -> Result<f64, OrbitError> {
+    let mut map = PeriodMap::new(system);
+    map.refine()?;
+    let beta = system.parameters.beta;
+    let n = map.dimension();
+    let scales = map.scales().to_vec();
+    let state: Vec<f64> = (0..n).map(|i| 0.01 * scales[i] * (1.0 + i as f64).sin()).collect();
+    let mut image = |state: &[f64], beta: f64| {
+        map.apply(state, beta, periods, |_, _| ())?;
+        Ok::<Vec<f64>, OrbitError>(map.image().to_vec())
+    };
+    let step = 5e-5;
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    let units: Vec<f64> = scales.iter().copied().chain([1.0]).collect();
+    for (j, unit) in units.iter().enumerate() {
+        let mut moved = |steps: f64| {
+            let (mut state, mut beta) = (state.clone(), beta);
+            let value = state.get_mut(j).unwrap_or(&mut beta);
+            *value += steps * step * unit;
+            image(&state, beta)
         };
-        let step = 5e-5;
-        let mut columns: Vec<Vec<f64>> = Vec::new();
-        let units: Vec<f64> = scales.iter().copied().chain([1.0]).collect();
-        for (j, unit) in units.iter().enumerate() {
-            let mut moved = |steps: f64| {
-                let (mut state, mut beta) = (state.clone(), beta);
-                let value = state.get_mut(j).unwrap_or(&mut beta);
-                *value += steps * step * unit;
-                image(&state, beta)
-            };
-            let [a, b, c, d] = [moved(-2.0)?, moved(-1.0)?, moved(1.0)?, moved(2.0)?];
-            let fourth_order = |i: usize| (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * step);
-            columns.push((0..n).map(fourth_order).collect());
-        }
-        map.apply(&state, beta, periods, |_, _| ())?;
-        let mut worst: f64 = 0.0;
-        for (j, (column, unit)) in columns.iter().zip(&units).enumerate() {
-            for i in 0..n {
-                worst = worst.max((map.derivative(i, j) * unit - column[i]).abs() / scales[i]);
-            }
-        }
-        Ok(worst)
+        let [a, b, c, d] = [moved(-2.0)?, moved(-1.0)?, moved(1.0)?, moved(2.0)?];
+        let fourth_order = |i: usize| (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * step);
+        columns.push((0..n).map(fourth_order).collect());
     }
+    map.apply(&state, beta, periods, |_, _| ())?;
+    let mut worst: f64 = 0.0;
+    for (j, (column, unit)) in columns.iter().zip(&units).enumerate() {
+        for i in 0..n {
+            worst = worst.max((map.derivative(i, j) * unit - column[i]).abs() / scales[i]);
+        }
+    }
+    Ok(worst)
 }
 
 #[test]
@@ -164,7 +157,7 @@ fn the_derivative_of_the_map_is_that_by_finite_differences() -> TestResult {
     for law in LAWS {
         for (modes, periods) in [(1, 1), (2, 2), (4, 1)] {
             let system = system(ParameterSet { omega: 8.0, ..strong() }, modes, law)?;
-            let worst = system.dispatch(Differences(&system, periods))?;
+            let worst = largest_deviation(&system, periods)?;
             assert!(worst < 1e-8, "{law:?} {modes}: {worst:e}");
         }
     }

@@ -6,7 +6,7 @@
 use harvester_lab::model::force::Exact;
 use harvester_lab::model::{
     Device, ElectricalScaling, Equilibrium, ForceLaw, Magnet, ModeSet, ParameterSet, Parameters,
-    ReducedSystem, RestForce,
+    ReducedSystem,
 };
 use harvester_lab::theory::{SteadyState, TheoryError};
 

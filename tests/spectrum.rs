@@ -9,7 +9,6 @@ use harvester_lab::dynamics::rk4::RungeKutta4;
 use harvester_lab::dynamics::spectral_label::{Frequencies, Label};
 use harvester_lab::dynamics::spectrum::{Spectrum, SpectrumError};
 use harvester_lab::dynamics::{Horizon, VoltageSpectrum, reach};
-use harvester_lab::model::force::Quadratic;
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 use nalgebra::Complex;
 
@@ -125,8 +124,7 @@ fn the_lines_of_figure_9_are_the_fourier_coefficients_of_its_orbit() -> TestResu
     let orbit = reached.orbit.ok_or("periodic")?;
     // Equal samples of the orbit by Runge-Kutta: their sums converge faster than any power.
     let steps = 2000;
-    let c2 = system.magnet().taylor_coefficient(system.equilibrium.gap, 2);
-    let mut run = RungeKutta4::new(&system, Quadratic { c2 }, &orbit.state, steps)?;
+    let mut run = RungeKutta4::new(&system, &orbit.state, steps)?;
     let count = 2 * steps;
     let mut voltage = Vec::new();
     for _ in 0..count {

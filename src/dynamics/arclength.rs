@@ -11,7 +11,7 @@ use super::OrbitError;
 use super::newton::OrbitSolver;
 use super::period_map::PeriodMap;
 use super::plane::Axis;
-use crate::model::{Parameter, ParameterSet, ReducedSystem, RestForce};
+use crate::model::{Parameter, ParameterSet, ReducedSystem};
 
 /// Iterations of a correction.
 const MAX_ITERATIONS: usize = 12;
@@ -28,39 +28,18 @@ const STEEP: f64 = 0.1;
 /// Prepared maps kept beside the present one.
 const SPARE: usize = 3;
 
-/// A force law behind a pointer: the law of a branch changes with its parameter.
-pub(super) struct Law(Box<dyn RestForce>);
-
-impl RestForce for Law {
-    fn rest(&self, s: f64) -> f64 {
-        self.0.rest(s)
-    }
-
-    fn slope(&self, s: f64) -> f64 {
-        self.0.slope(s)
-    }
-
-    fn potential(&self, s: f64) -> f64 {
-        self.0.potential(s)
-    }
-
-    fn contact(&self) -> Option<f64> {
-        self.0.contact()
-    }
-}
-
 /// The orbits of a device while K of its numbers change.
 pub(super) struct Family<const K: usize> {
     pub(super) system: ReducedSystem,
     pub(super) periods: usize,
-    pub(super) solver: OrbitSolver<Law>,
+    pub(super) solver: OrbitSolver,
     /// Step of difference quotients in a parameter, relative to the width of its range.
     pub(super) difference: f64,
     axes: [Axis; K],
     /// Units of the places' components.
     units: Vec<f64>,
     /// Systems that differ in more than beta, with their maps, the one used last at the end.
-    spare: Vec<(ReducedSystem, OrbitSolver<Law>)>,
+    spare: Vec<(ReducedSystem, OrbitSolver)>,
     /// Derivatives of the defect with respect to the parameters, (2N + 1) x K.
     columns: Option<DMatrix<f64>>,
 }
@@ -68,7 +47,7 @@ pub(super) struct Family<const K: usize> {
 impl<const K: usize> Family<K> {
     /// The orbits of `periods` excitation periods of the device `system` with its parameters on `axes`.
     pub(super) fn new(system: &ReducedSystem, axes: [Axis; K], periods: usize) -> Result<Self, OrbitError> {
-        let mut solver = OrbitSolver::new(system, Law(system.rest_force()));
+        let mut solver = OrbitSolver::new(system);
         let gap = solver.map().gap();
         let state = solver.map().scales().iter().map(|scale| scale * gap);
         let units = state.chain(axes.iter().map(Axis::width)).collect();
@@ -123,8 +102,7 @@ impl<const K: usize> Family<K> {
                 Some(known) => self.spare.remove(known),
                 None => {
                     let system = self.system.with_numbers(set)?;
-                    let (law, level) = (Law(system.rest_force()), self.solver.map().level());
-                    let map = PeriodMap::with_level(&system, law, level);
+                    let map = PeriodMap::with_level(&system, self.solver.map().level());
                     let solver = OrbitSolver::with_map(&system, map);
                     (system, solver)
                 }

@@ -7,10 +7,9 @@ use super::extremes::{Highest, Scalar};
 use super::propagator::{StepRest, Workspace};
 use super::rule::{NODES, RULE};
 use super::{Collocation, IntegrationError, Outcome, Settings};
+use crate::model::ReducedSystem;
 use crate::model::energy::{energy, powers};
 use crate::model::quadrature::gauss_legendre;
-use crate::model::reduced::ForceVisitor;
-use crate::model::{ReducedSystem, RestForce};
 
 /// Tolerance of the run: a thousand times finer than usual, since the balance is to close to eight digits.
 const TOLERANCE: f64 = 1e-8;
@@ -55,27 +54,18 @@ impl Balance {
         state: &[f64],
         periods: usize,
     ) -> Result<Option<Self>, IntegrationError> {
-        struct Run<'a>(&'a ReducedSystem, &'a [f64], usize);
-        impl ForceVisitor for Run<'_> {
-            type Output = Result<Option<Balance>, IntegrationError>;
-            fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-                let Self(system, state, periods) = self;
-                let end = periods as f64 * system.parameters.period();
-                let settings = Settings { tolerance: TOLERANCE };
-                let mut integrator = Collocation::new(system, force, state, settings)?;
-                let mut reader = Reader::new(system);
-                let outcome = loop {
-                    let outcome = integrator.advance(end, usize::MAX, |step| reader.record(step))?;
-                    if let Some(outcome) = outcome {
-                        break outcome;
-                    }
-                };
-                let gained = energy(system, integrator.state()) - energy(system, state);
-                let completed = outcome == Outcome::Completed;
-                Ok(completed.then(|| reader.balance(integrator.propagator(), gained)))
+        let end = periods as f64 * system.parameters.period();
+        let mut integrator = Collocation::new(system, state, Settings { tolerance: TOLERANCE })?;
+        let mut reader = Reader::new(system);
+        let outcome = loop {
+            let outcome = integrator.advance(end, usize::MAX, |step| reader.record(step))?;
+            if let Some(outcome) = outcome {
+                break outcome;
             }
-        }
-        system.dispatch(Run(system, state, periods))
+        };
+        let gained = energy(system, integrator.state()) - energy(system, state);
+        let completed = outcome == Outcome::Completed;
+        Ok(completed.then(|| reader.balance(integrator.propagator(), gained)))
     }
 }
 

@@ -11,8 +11,7 @@ use super::OrbitError;
 use super::bracket::root;
 use super::floquet::Instability;
 use super::newton::OrbitSolver;
-use crate::model::reduced::ForceVisitor;
-use crate::model::{ReducedSystem, RestForce};
+use crate::model::ReducedSystem;
 use crate::theory::Resonance;
 
 /// Steps of the march from beta = 0 to its limit.
@@ -81,17 +80,9 @@ pub fn critical_excitation(
     limit: f64,
     only: Option<Instability>,
 ) -> Result<CriticalExcitation, OrbitError> {
-    struct Search<'a>(&'a ReducedSystem, f64, Option<Instability>);
-    impl ForceVisitor for Search<'_> {
-        type Output = Result<CriticalExcitation, OrbitError>;
-        fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-            let mut solver = OrbitSolver::new(self.0, force);
-            let (found, _) = search(&mut solver, self.1, self.2)?;
-            Ok(found)
-        }
-    }
     let system = system.with_excitation(0.0, omega)?;
-    system.dispatch(Search(&system, limit, only))
+    let (found, _) = search(&mut OrbitSolver::new(&system), limit, only)?;
+    Ok(found)
 }
 
 /// The largest Floquet multiplier of the forced motion of `system` at frequency `omega` for each of the ascending
@@ -104,25 +95,17 @@ pub fn largest_multipliers(
     omega: f64,
     betas: &[f64],
 ) -> Result<Vec<Option<Complex<f64>>>, OrbitError> {
-    struct Sweep<'a>(&'a ReducedSystem, &'a [f64]);
-    impl ForceVisitor for Sweep<'_> {
-        type Output = Result<Vec<Option<Complex<f64>>>, OrbitError>;
-        fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-            let mut solver = OrbitSolver::new(self.0, force);
-            let mut here = Some(Forced::at_rest(&mut solver)?);
-            let mut values = Vec::with_capacity(self.1.len());
-            for beta in self.1 {
-                here = match here {
-                    Some(forced) => forced.march_to(&mut solver, *beta)?,
-                    None => None,
-                };
-                values.push(here.as_ref().and_then(|forced| forced.multipliers.first().copied()));
-            }
-            Ok(values)
-        }
+    let mut solver = OrbitSolver::new(&system.with_excitation(0.0, omega)?);
+    let mut here = Some(Forced::at_rest(&mut solver)?);
+    let mut values = Vec::with_capacity(betas.len());
+    for beta in betas {
+        here = match here {
+            Some(forced) => forced.march_to(&mut solver, *beta)?,
+            None => None,
+        };
+        values.push(here.as_ref().and_then(|forced| forced.multipliers.first().copied()));
     }
-    let system = system.with_excitation(0.0, omega)?;
-    system.dispatch(Sweep(&system, betas))
+    Ok(values)
 }
 
 /// A point of the branch of forced motions.
@@ -146,7 +129,7 @@ struct Tangent {
 
 impl Forced {
     /// The solver's present orbit.
-    fn read<F: RestForce>(solver: &OrbitSolver<F>, beta: f64) -> Result<Self, OrbitError> {
+    fn read(solver: &OrbitSolver, beta: f64) -> Result<Self, OrbitError> {
         Ok(Self {
             beta,
             state: solver.state().to_vec(),
@@ -179,11 +162,7 @@ impl Forced {
     }
 
     /// The forced motion at `beta`, reached from this one.
-    pub(super) fn move_to<F: RestForce>(
-        &self,
-        solver: &mut OrbitSolver<F>,
-        beta: f64,
-    ) -> Result<Self, OrbitError> {
+    pub(super) fn move_to(&self, solver: &mut OrbitSolver, beta: f64) -> Result<Self, OrbitError> {
         let guess = self.predict(beta);
         let convergence = solver.follow(&guess, beta, 1)?;
         let scales = solver.map().scales().to_vec();
@@ -201,18 +180,14 @@ impl Forced {
     }
 
     /// The motion without excitation.
-    pub(super) fn at_rest<F: RestForce>(solver: &mut OrbitSolver<F>) -> Result<Self, OrbitError> {
+    pub(super) fn at_rest(solver: &mut OrbitSolver) -> Result<Self, OrbitError> {
         let rest = vec![0.0; solver.state().len()];
         solver.follow(&rest, 0.0, 1)?;
         Self::read(solver, 0.0)
     }
 
     /// The forced motion at `beta`, reached in as many steps as needed; `None` when they become too short.
-    pub(super) fn march_to<F: RestForce>(
-        self,
-        solver: &mut OrbitSolver<F>,
-        beta: f64,
-    ) -> Result<Option<Self>, OrbitError> {
+    pub(super) fn march_to(self, solver: &mut OrbitSolver, beta: f64) -> Result<Option<Self>, OrbitError> {
         let shortest = SHORTEST * (beta - self.beta);
         let mut here = self;
         let mut step = beta - here.beta;
@@ -235,8 +210,8 @@ impl Forced {
 }
 
 /// The march and the location; beside the answer the orbit where it was found.
-pub(super) fn search<F: RestForce>(
-    solver: &mut OrbitSolver<F>,
+pub(super) fn search(
+    solver: &mut OrbitSolver,
     limit: f64,
     only: Option<Instability>,
 ) -> Result<(CriticalExcitation, Forced), OrbitError> {
@@ -270,8 +245,8 @@ pub(super) fn search<F: RestForce>(
 }
 
 /// The crossing between a stable and an unstable orbit.
-fn locate<F: RestForce>(
-    solver: &mut OrbitSolver<F>,
+fn locate(
+    solver: &mut OrbitSolver,
     stable: &Forced,
     unstable: &Forced,
     limit: f64,

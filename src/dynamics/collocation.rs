@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 
 use super::linear::LinearPart;
 use super::propagator::Propagator;
-use super::tables::{BLOCK, NODES, NodeValues, RULE, StepTables};
+use super::tables::{BLOCK, NODES, NodeValues, RULE, StepTables, add_scaled};
 use super::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
 use crate::model::{ReducedSystem, RestForce};
 
@@ -66,13 +66,13 @@ pub struct Step<'a> {
     pub index: usize,
 }
 
-/// An integrator of one system under one force law, holding the present state.
+/// An integrator of one system, holding the present state.
 #[derive(Debug, Clone)]
-pub struct Collocation<F> {
+pub struct Collocation {
     part: LinearPart,
     /// Over the longest step, for its tables and for dense output.
     propagator: Propagator,
-    force: F,
+    force: RestForce,
     settings: Settings,
     period: f64,
     beta: f64,
@@ -100,14 +100,13 @@ enum Attempt {
     Rejected,
 }
 
-impl<F: RestForce> Collocation<F> {
-    /// An integrator of `system` under `force`, at time 0 in the state `initial` (length 2N + 1).
+impl Collocation {
+    /// An integrator of `system` under its own force law, at time 0 in the state `initial` (length 2N + 1).
     ///
     /// # Errors
     /// [`IntegrationError::InitialState`] when `initial` has the wrong length or is not finite.
     pub fn new(
         system: &ReducedSystem,
-        force: F,
         initial: &[f64],
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
@@ -124,7 +123,7 @@ impl<F: RestForce> Collocation<F> {
             coarsest,
             part,
             propagator,
-            force,
+            force: system.rest_force(),
             settings,
             period,
             beta,
@@ -173,7 +172,8 @@ impl<F: RestForce> Collocation<F> {
     }
 
     /// Goes on towards `t_end` for at most `most_steps` steps, each shown to `observer`, and returns the outcome
-    /// once there is one. The last step is shortened to end at `t_end`; after an outcome the run is over.
+    /// once there is one. The last step is shortened to end at `t_end`; after an outcome the run is over. Without an end
+    /// (infinite `t_end`) every stroboscopic instant stays on the grid.
     ///
     /// # Errors
     /// [`IntegrationError::StepTooSmall`] when no step is short enough and yet nothing escaped or touched,
@@ -256,41 +256,50 @@ impl<F: RestForce> Collocation<F> {
 
     /// Solves the step from the present state; leaves R and s at the nodes in `self`.
     fn attempt(&mut self, tables: &StepTables) -> Attempt {
+        // Compiled twice, once for the paper's law alone, which then stays in registers.
+        let solution = match self.force {
+            RestForce::Quadratic { c2 } => self.solve(&RestForce::Quadratic { c2 }, tables),
+            _ => self.solve(&self.force, tables),
+        };
+        match solution {
+            Some((rest, tip, scale)) => self.judge(tables, rest, tip, scale),
+            None => Attempt::Rejected,
+        }
+    }
+
+    /// R and s at the nodes under the integrator's own `force`, and the size of s by which their error is judged; `None`
+    /// when the step is too long.
+    #[inline(always)]
+    fn solve(&self, force: &RestForce, tables: &StepTables) -> Option<(NodeValues, NodeValues, f64)> {
         let free = tables.tip.free(&self.extended);
         let n = self.part.modes;
         let s: f64 = self.extended[..n].iter().sum();
         let w: f64 = self.extended[n..2 * n].iter().sum();
-        let (value, ramp) = (self.force.rest(s), self.force.slope(s) * w);
         let mut tip = free;
-        super::tables::add_scaled(&mut tip, value, &tables.guess[0]);
-        super::tables::add_scaled(&mut tip, ramp, &tables.guess[1]);
+        add_scaled(&mut tip, force.rest(s), &tables.guess[0]);
+        add_scaled(&mut tip, force.slope(s) * w, &tables.guess[1]);
         let scale = self.gap.max(s.abs());
         // Each pass shrinks the error by an order of magnitude or more, so the last change bounds what is left.
         let settled = (1e-4 * self.settings.tolerance).max(ROUNDING) * scale;
-        let mut rest = [0.0; NODES];
+        let contact = force.contact();
         for _ in 0..MAX_PASSES {
-            for (rest, tip) in rest.iter_mut().zip(&tip) {
-                *rest = self.force.rest(*tip);
-            }
+            let rest = force.rest_at(&tip);
             let mut next = free;
             for (value, row) in rest.iter().zip(&tables.tip.from_rest) {
-                super::tables::add_scaled(&mut next, *value, row);
+                add_scaled(&mut next, *value, row);
             }
             let change = largest_difference(&next, &tip);
             tip = next;
             let lowest = tip.iter().copied().fold(f64::INFINITY, f64::min);
-            let beyond = self.force.contact().is_some_and(|contact| lowest <= contact);
+            let beyond = contact.is_some_and(|contact| lowest <= contact);
             if !change.is_finite() || beyond {
-                return Attempt::Rejected;
+                return None;
             }
             if change <= settled {
-                for (rest, tip) in rest.iter_mut().zip(&tip) {
-                    *rest = self.force.rest(*tip);
-                }
-                return self.judge(tables, rest, tip, scale);
+                return Some((force.rest_at(&tip), tip, scale));
             }
         }
-        Attempt::Rejected
+        None
     }
 
     fn judge(&mut self, tables: &StepTables, rest: NodeValues, tip: NodeValues, scale: f64) -> Attempt {

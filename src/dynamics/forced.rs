@@ -4,8 +4,7 @@
 use super::boundary::{CriticalExcitation, search};
 use super::newton::OrbitSolver;
 use super::{Orbit, OrbitError};
-use crate::model::reduced::ForceVisitor;
-use crate::model::{ReducedSystem, RestForce};
+use crate::model::ReducedSystem;
 
 /// The march beyond the loss of stability gives up below this fraction of the whole.
 const SHORTEST: f64 = 1e-5;
@@ -27,29 +26,21 @@ impl ForcedMotion {
     /// # Errors
     /// As [`super::critical_excitation`].
     pub fn of(system: &ReducedSystem) -> Result<Self, OrbitError> {
-        struct Follow<'a>(&'a ReducedSystem);
-        impl ForceVisitor for Follow<'_> {
-            type Output = Result<(CriticalExcitation, Option<Vec<f64>>), OrbitError>;
-            fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-                let beta = self.0.parameters.beta;
-                let mut solver = OrbitSolver::new(self.0, force);
-                let (critical, mut here) = search(&mut solver, beta, None)?;
-                if matches!(critical, CriticalExcitation::Ends { .. }) {
-                    return Ok((critical, None));
-                }
-                let (mut step, shortest) = (beta - here.beta, SHORTEST * beta);
-                while here.beta < beta {
-                    match here.move_to(&mut solver, (here.beta + step).min(beta)) {
-                        Ok(next) => here = next,
-                        Err(_) if step > shortest => step *= 0.5,
-                        Err(_) => return Ok((critical, None)),
-                    }
-                }
-                Ok((critical, Some(here.state)))
+        let beta = system.parameters.beta;
+        let mut solver = OrbitSolver::new(system);
+        let (critical, mut here) = search(&mut solver, beta, None)?;
+        if matches!(critical, CriticalExcitation::Ends { .. }) {
+            return Ok(Self { critical, orbit: None });
+        }
+        let (mut step, shortest) = (beta - here.beta, SHORTEST * beta);
+        while here.beta < beta {
+            match here.move_to(&mut solver, (here.beta + step).min(beta)) {
+                Ok(next) => here = next,
+                Err(_) if step > shortest => step *= 0.5,
+                Err(_) => return Ok(Self { critical, orbit: None }),
             }
         }
-        let (critical, state) = system.dispatch(Follow(system))?;
-        let orbit = state.map(|state| Orbit::find(system, Some(&state), 1)).transpose()?;
-        Ok(Self { critical, orbit })
+        let orbit = Orbit::find(system, Some(&here.state), 1)?;
+        Ok(Self { critical, orbit: Some(orbit) })
     }
 }

@@ -6,7 +6,6 @@
 //! itself, started on it, so that nothing of the transient is in them; were it unstable after all, it would be left.
 
 use super::evidence::{Evidence, Source};
-use super::flow;
 use super::forced::ForcedMotion;
 use super::lyapunov::{Exponent, Lyapunov, Progress};
 use super::motion::{Cell, Horizon, Motion, Reached, Undecided};
@@ -299,7 +298,7 @@ impl Inquiry {
     }
 
     fn same(&self, a: &[f64], b: &[f64]) -> bool {
-        let scales = flow::scales(&self.system);
+        let scales = super::period_map::scales(&self.system);
         let gap = self.system.equilibrium.gap;
         a.iter().zip(b).zip(&scales).all(|((a, b), scale)| (a - b).abs() <= SAME_STATE * gap * scale)
     }

@@ -19,9 +19,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::flow::{self, Flow};
 use super::tangent::Tangents;
-use super::{IntegrationError, Orbit, Outcome};
+use super::{Collocation, IntegrationError, Orbit, Outcome, Settings};
 use crate::model::ReducedSystem;
 
 /// Blocks the record is cut into.
@@ -183,7 +182,7 @@ pub enum Progress {
 
 /// Computes the exponents of one motion, as many periods at a time as the caller likes.
 pub struct Lyapunov {
-    flow: Box<dyn Flow>,
+    integrator: Collocation,
     tangents: Tangents,
     period: f64,
     ended: Option<Outcome>,
@@ -191,7 +190,7 @@ pub struct Lyapunov {
 
 impl std::fmt::Debug for Lyapunov {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Lyapunov").field("time", &self.flow.time()).field("ended", &self.ended).finish()
+        f.debug_struct("Lyapunov").field("time", &self.integrator.time()).field("ended", &self.ended).finish()
     }
 }
 
@@ -203,7 +202,7 @@ impl Lyapunov {
     /// [`IntegrationError::InitialState`].
     pub fn new(system: &ReducedSystem, state: &[f64]) -> Result<Self, IntegrationError> {
         Ok(Self {
-            flow: flow::begin(system, state)?,
+            integrator: Collocation::new(system, state, Settings::default())?,
             tangents: Tangents::new(system),
             period: system.parameters.period(),
             ended: None,
@@ -217,7 +216,7 @@ impl Lyapunov {
     pub fn advance(&mut self, periods: usize) -> Result<Progress, IntegrationError> {
         let target = self.tangents.growth()[0].len() + periods;
         while self.ended.is_none() && self.tangents.growth()[0].len() < target {
-            self.ended = self.flow.advance(1, &mut |step| self.tangents.record(step))?;
+            self.ended = self.integrator.advance(f64::INFINITY, 1, |step| self.tangents.record(step))?;
         }
         Ok(match self.ended {
             Some(outcome) => Progress::Ended(outcome),

@@ -26,7 +26,6 @@ pub mod curves;
 pub mod evidence;
 mod extremes;
 pub mod floquet;
-mod flow;
 pub mod forced;
 mod inquiry;
 pub mod linear;

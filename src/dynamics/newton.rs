@@ -6,7 +6,7 @@ use super::collocation::Step;
 use super::floquet::multipliers;
 use super::period_map::{PeriodMap, StepDerivative};
 use super::{IntegrationError, OrbitError};
-use crate::model::{ReducedSystem, RestForce};
+use crate::model::ReducedSystem;
 
 /// Iterations before the search is given up.
 const MAX_ITERATIONS: usize = 40;
@@ -31,10 +31,10 @@ pub struct Convergence {
     pub residual: f64,
 }
 
-/// Periodic orbits of one structure at one frequency under one force law, for any beta.
+/// Periodic orbits of one structure at one frequency, for any beta.
 #[derive(Debug, Clone)]
-pub struct OrbitSolver<F> {
-    map: PeriodMap<F>,
+pub struct OrbitSolver {
+    map: PeriodMap,
     /// theta_n, without a load only: then the charge c v - sum theta_n q_n is conserved and every orbit belongs to
     /// a family; the one without charge is taken.
     charge: Option<(f64, Vec<f64>)>,
@@ -44,14 +44,14 @@ pub struct OrbitSolver<F> {
     residual: f64,
 }
 
-impl<F: RestForce> OrbitSolver<F> {
-    /// Prepares the map of `system` under `force`.
-    pub fn new(system: &ReducedSystem, force: F) -> Self {
-        Self::with_map(system, PeriodMap::new(system, force))
+impl OrbitSolver {
+    /// Prepares the map of `system`.
+    pub fn new(system: &ReducedSystem) -> Self {
+        Self::with_map(system, PeriodMap::new(system))
     }
 
     /// A solver of `system` with its `map`.
-    pub(super) fn with_map(system: &ReducedSystem, map: PeriodMap<F>) -> Self {
+    pub(super) fn with_map(system: &ReducedSystem, map: PeriodMap) -> Self {
         let n = map.dimension();
         let p = &system.parameters;
         Self {
@@ -64,7 +64,7 @@ impl<F: RestForce> OrbitSolver<F> {
     }
 
     /// The map, for what only it knows.
-    pub fn map(&mut self) -> &mut PeriodMap<F> {
+    pub fn map(&mut self) -> &mut PeriodMap {
         &mut self.map
     }
 

@@ -10,9 +10,8 @@ use super::floquet::Instability;
 use super::newton::{Convergence, OrbitSolver};
 use super::propagator::Propagator;
 use super::tables::NODES;
+use crate::model::ReducedSystem;
 use crate::model::quadrature::gauss_legendre;
-use crate::model::reduced::ForceVisitor;
-use crate::model::{ReducedSystem, RestForce};
 use crate::theory::LinearResponse;
 
 /// Distance between stroboscopic points, over the gap, below which they are the same point.
@@ -69,30 +68,23 @@ impl Orbit {
     /// # Errors
     /// As [`OrbitSolver::find`].
     pub fn find(system: &ReducedSystem, guess: Option<&[f64]>, periods: usize) -> Result<Self, OrbitError> {
-        struct Find<'a>(&'a ReducedSystem, &'a [f64], usize);
-        impl ForceVisitor for Find<'_> {
-            type Output = Result<Orbit, OrbitError>;
-            fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-                let beta = self.0.parameters.beta;
-                let mut solver = OrbitSolver::new(self.0, force);
-                let convergence = solver.find(self.1, beta, self.2)?;
-                Orbit::read(self.0, &mut solver, convergence, beta, self.2)
-            }
-        }
         let start = match guess {
             Some(guess) => guess.to_vec(),
             None => forced_motion(system),
         };
-        system.dispatch(Find(system, &start, periods))
+        let beta = system.parameters.beta;
+        let mut solver = OrbitSolver::new(system);
+        let convergence = solver.find(&start, beta, periods)?;
+        Self::read(system, &mut solver, convergence, beta, periods)
     }
 
     /// Everything about the orbit of `periods` excitation periods that `solver` found last.
     ///
     /// # Errors
     /// As [`super::PeriodMap::apply`] and [`OrbitSolver::multipliers`].
-    pub fn read<F: RestForce>(
+    pub fn read(
         system: &ReducedSystem,
-        solver: &mut OrbitSolver<F>,
+        solver: &mut OrbitSolver,
         convergence: Convergence,
         beta: f64,
         periods: usize,
@@ -146,8 +138,8 @@ pub(super) fn forced_motion(system: &ReducedSystem) -> Vec<f64> {
 ///
 /// # Errors
 /// As [`super::PeriodMap::apply`].
-pub(super) fn shortest_period<F: RestForce>(
-    solver: &mut OrbitSolver<F>,
+pub(super) fn shortest_period(
+    solver: &mut OrbitSolver,
     beta: f64,
     periods: usize,
 ) -> Result<usize, OrbitError> {

@@ -45,11 +45,11 @@ impl StepDerivative<'_> {
     }
 }
 
-/// The map of one structure at one excitation frequency under one force law.
+/// The map of one structure at one excitation frequency.
 #[derive(Debug, Clone)]
-pub struct PeriodMap<F> {
+pub struct PeriodMap {
     propagator: Propagator,
-    force: F,
+    force: RestForce,
     period: f64,
     gap: f64,
     level: u32,
@@ -67,14 +67,14 @@ pub struct PeriodMap<F> {
     next: Vec<f64>,
 }
 
-impl<F: RestForce> PeriodMap<F> {
-    /// Prepares the map of `system` under `force` on the coarsest grid. The system's beta is not used.
-    pub fn new(system: &ReducedSystem, force: F) -> Self {
-        Self::with_level(system, force, 0)
+impl PeriodMap {
+    /// Prepares the map of `system` under its own force law on the coarsest grid. The system's beta is not used.
+    pub fn new(system: &ReducedSystem) -> Self {
+        Self::with_level(system, 0)
     }
 
     /// Prepares the map on the coarsest grid halved `level` times.
-    pub(super) fn with_level(system: &ReducedSystem, force: F, level: u32) -> Self {
+    pub(super) fn with_level(system: &ReducedSystem, level: u32) -> Self {
         let period = system.parameters.period();
         let steps = coarsest_steps(system) << level;
         let propagator = Propagator::new(&LinearPart::new(system), period / steps as f64);
@@ -91,7 +91,7 @@ impl<F: RestForce> PeriodMap<F> {
             gap: system.equilibrium.gap,
             level,
             propagator,
-            force,
+            force: system.rest_force(),
             period,
             steps,
             tables,
@@ -181,9 +181,13 @@ impl<F: RestForce> PeriodMap<F> {
             let (sine, cosine) = self.phases[index];
             self.extended[dimension] = beta * sine;
             self.extended[dimension + 1] = beta * cosine;
-            let (tip, rest) = self.solve(time)?;
+            // Compiled twice, once for the paper's law alone, which then stays in registers.
+            let (tip, rest) = match self.force {
+                RestForce::Quadratic { c2 } => self.solve(&RestForce::Quadratic { c2 }, time),
+                _ => self.solve(&self.force, time),
+            }?;
             let tables = &self.tables;
-            let slopes = tip.map(|s| self.force.slope(s));
+            let slopes = self.force.slope_at(&tip);
             let variation = differentiate(tables, &slopes, (sine, cosine), &self.scales, &mut self.step)
                 .ok_or(OrbitError::Unresolved { steps: self.steps })?;
             let gap = tip.iter().fold(self.gap, |most, s| most.max(s.abs()));
@@ -218,22 +222,23 @@ impl<F: RestForce> PeriodMap<F> {
         DMatrix::from_fn(n, n, |i, j| self.derivative(i, j) * (self.scales[j] / self.scales[i]))
     }
 
-    /// Solves a step from the present extended state: s and R at the nodes.
-    #[inline]
-    fn solve(&self, time: f64) -> Result<(NodeValues, NodeValues), OrbitError> {
+    /// Solves a step from the present extended state under the map's own `force`: s and R at the nodes.
+    #[inline(always)]
+    fn solve(&self, force: &RestForce, time: f64) -> Result<(NodeValues, NodeValues), OrbitError> {
         let tables = &self.tables;
         let n = self.propagator.part().modes;
         let free = tables.tip.free(&self.extended);
         let s: f64 = self.extended[..n].iter().sum();
         let w: f64 = self.extended[n..2 * n].iter().sum();
         let mut tip = free;
-        add_scaled(&mut tip, self.force.rest(s), &tables.guess[0]);
-        add_scaled(&mut tip, self.force.slope(s) * w, &tables.guess[1]);
+        add_scaled(&mut tip, force.rest(s), &tables.guess[0]);
+        add_scaled(&mut tip, force.slope(s) * w, &tables.guess[1]);
         // Each pass gains digits, so a change of this size leaves rounding only.
         let settled = 100.0 * ROUNDING * self.gap.max(s.abs());
+        let contact = force.contact();
         let mut last = false;
         for _ in 0..MAX_PASSES {
-            let rest = tip.map(|s| self.force.rest(s));
+            let rest = force.rest_at(&tip);
             if last {
                 return Ok((tip, rest));
             }
@@ -245,7 +250,7 @@ impl<F: RestForce> PeriodMap<F> {
             tip = next;
             let (lowest, highest) =
                 tip.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| (a.min(*s), b.max(*s)));
-            if self.force.contact().is_some_and(|contact| lowest <= contact) {
+            if contact.is_some_and(|contact| lowest <= contact) {
                 return Err(OrbitError::Contact { time });
             }
             if !(change.is_finite() && highest.max(-lowest) < ESCAPE_DISPLACEMENT) {
@@ -281,7 +286,9 @@ fn phases(steps: usize) -> Vec<(f64, f64)> {
     (0..steps).map(|i| (TAU * i as f64 / steps as f64).sin_cos()).collect()
 }
 
-fn scales(system: &ReducedSystem) -> Vec<f64> {
+/// What each component of a state is when its energy is that of a unit displacement of its mode, length 2N + 1: see
+/// [`PeriodMap::scales`].
+pub(super) fn scales(system: &ReducedSystem) -> Vec<f64> {
     let first = &system.modes[0];
     let voltage = first.omega * (first.eta2 / system.parameters.c).sqrt();
     let velocities = system.modes.iter().map(|mode| mode.omega);

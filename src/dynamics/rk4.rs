@@ -14,9 +14,9 @@ pub const PAPER_STEPS_PER_PERIOD: u32 = 10_000;
 /// It has no error control: it is as accurate as its step, and unstable when alpha omega_N^2 times the step
 /// exceeds about 2.8.
 #[derive(Debug, Clone)]
-pub struct RungeKutta4<'a, F> {
+pub struct RungeKutta4<'a> {
     system: &'a ReducedSystem,
-    force: F,
+    force: RestForce,
     steps_per_period: u32,
     count: u64,
     state: Vec<f64>,
@@ -24,14 +24,13 @@ pub struct RungeKutta4<'a, F> {
     probe: Vec<f64>,
 }
 
-impl<'a, F: RestForce> RungeKutta4<'a, F> {
-    /// Starts at time 0 in `initial` (length 2N + 1) with `steps_per_period` > 0 steps a period.
+impl<'a> RungeKutta4<'a> {
+    /// Starts `system` under its own force law at time 0 in `initial` (length 2N + 1) with `steps_per_period` > 0 steps a period.
     ///
     /// # Errors
     /// [`IntegrationError::InitialState`].
     pub fn new(
         system: &'a ReducedSystem,
-        force: F,
         initial: &[f64],
         steps_per_period: u32,
     ) -> Result<Self, IntegrationError> {
@@ -39,7 +38,7 @@ impl<'a, F: RestForce> RungeKutta4<'a, F> {
         let zero = vec![0.0; system.dimension()];
         Ok(Self {
             system,
-            force,
+            force: system.rest_force(),
             steps_per_period: steps_per_period.max(1),
             count: 0,
             state: initial.to_vec(),

@@ -13,7 +13,6 @@
 //! A chaotic transient that outlives the record counts as chaotic, and a periodic motion of more than 64 excitation
 //! periods is never found.
 
-use super::flow::{self, Flow};
 use super::lyapunov::{self, Exponent, KNOWN, Sign};
 use super::meter::Meter;
 use super::motion::{Horizon, Motion, Reached, Undecided};
@@ -22,7 +21,7 @@ use super::period_map::MOST_PERIODS;
 use super::poincare::Recurrence;
 use super::strobe::{NEAR, Strobe};
 use super::tangent::Tangents;
-use super::{Instability, IntegrationError, Outcome};
+use super::{Collocation, Instability, IntegrationError, Outcome, Settings};
 use crate::model::ReducedSystem;
 
 /// Fewest excitation periods of a run: as many as recurrence needs.
@@ -46,7 +45,7 @@ pub struct Search {
     system: ReducedSystem,
     initial: Vec<f64>,
     horizon: Horizon,
-    flow: Box<dyn Flow>,
+    integrator: Collocation,
     strobe: Strobe,
     /// Stroboscopic instants passed, the start among them.
     instants: usize,
@@ -66,7 +65,10 @@ struct Record {
 
 impl std::fmt::Debug for Search {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Search").field("horizon", &self.horizon).field("time", &self.flow.time()).finish()
+        f.debug_struct("Search")
+            .field("horizon", &self.horizon)
+            .field("time", &self.integrator.time())
+            .finish()
     }
 }
 
@@ -84,7 +86,7 @@ impl Search {
             checkpoints.extend(early.filter(|instant| *instant >= LEAST_PERIODS));
         }
         Ok(Self {
-            flow: flow::begin(system, initial)?,
+            integrator: Collocation::new(system, initial, Settings::default())?,
             strobe: Strobe::new(system),
             system: system.clone(),
             initial: initial.to_vec(),
@@ -105,8 +107,8 @@ impl Search {
         while left > 0 {
             let chunk = left.min(CHUNK);
             left -= chunk;
-            let Self { flow, strobe, instants, record, .. } = self;
-            let outcome = flow.advance(chunk, &mut |step| {
+            let Self { integrator, strobe, instants, record, .. } = self;
+            let outcome = integrator.advance(f64::INFINITY, chunk, |step| {
                 if step.index == 0 {
                     strobe.push(step.start);
                     *instants += 1;

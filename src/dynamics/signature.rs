@@ -6,9 +6,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::flow;
 use super::motion::{Cell, Motion, Reached};
-use super::{IntegrationError, Orbit};
+use super::period_map::scales;
+use super::{Collocation, IntegrationError, Orbit, Settings};
 use crate::model::ReducedSystem;
 
 /// Distance, relative to the amplitude, below which stroboscopic states are the same.
@@ -56,9 +56,9 @@ fn stroboscopic_states(
     count: usize,
 ) -> Result<Vec<Vec<f64>>, IntegrationError> {
     let mut states = vec![state.to_vec()];
-    let mut flow = flow::begin(system, state)?;
+    let mut integrator = Collocation::new(system, state, Settings::default())?;
     while states.len() < count {
-        let outcome = flow.advance(CHUNK, &mut |step| {
+        let outcome = integrator.advance(f64::INFINITY, CHUNK, |step| {
             if step.index == 0 && step.time > 0.0 && states.len() < count {
                 states.push(step.start[..state.len()].to_vec());
             }
@@ -80,7 +80,7 @@ pub struct Recogniser {
 impl Recogniser {
     /// For motions of `system`.
     pub fn new(system: &ReducedSystem) -> Self {
-        Self { scales: flow::scales(system), gap: system.equilibrium.gap }
+        Self { scales: scales(system), gap: system.equilibrium.gap }
     }
 
     /// Whether `a` and `b` are the same motion. Escapes are all the same whenever they happen, so are contacts, and so

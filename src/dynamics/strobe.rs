@@ -40,7 +40,7 @@ pub(super) struct Strobe {
 
 impl Strobe {
     pub(super) fn new(system: &ReducedSystem) -> Self {
-        let scales = super::flow::scales(system);
+        let scales = super::period_map::scales(system);
         Self { states: Vec::with_capacity(2 * KEPT * scales.len()), gap: system.equilibrium.gap, scales }
     }
 

@@ -10,8 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::poincare::{PhasePoint, recurrence};
 use super::summary::Collector;
 use super::{Collocation, IntegrationError, Outcome, Settings};
-use crate::model::reduced::ForceVisitor;
-use crate::model::{ModelError, Parameter, ReducedSystem, RestForce};
+use crate::model::{ModelError, Parameter, ReducedSystem};
 use crate::scenario::Scenario;
 
 /// How long each value is held, in excitation periods.
@@ -95,7 +94,7 @@ pub fn sweep(
         let restarted = carried.is_none();
         let from = carried.as_ref().unwrap_or(&start);
         let held = match scenario.model.system(set) {
-            Ok(system) => system.dispatch(Hold { system: &system, from, dwell })?,
+            Ok(system) => hold(&system, from, dwell)?,
             // A value out of its own range is a wrong question; a device that cannot be is a gap.
             Err(reason @ (ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
                 return Err(reason.into());
@@ -143,50 +142,40 @@ impl Held {
     }
 }
 
-struct Hold<'a> {
-    system: &'a ReducedSystem,
-    from: &'a [f64],
-    dwell: Dwell,
-}
-
-impl ForceVisitor for Hold<'_> {
-    type Output = Result<Held, IntegrationError>;
-
-    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-        let Self { system, from, dwell } = self;
-        let period = system.parameters.period();
-        let (begin, end) = (dwell.discarded as f64 * period, (dwell.discarded + dwell.kept) as f64 * period);
-        let mut integrator = Collocation::new(system, force, from, Settings::default())?;
-        let mut collector = Collector::new((begin, end), end, 1);
-        let mut strobe: Vec<PhasePoint> = Vec::with_capacity(dwell.kept);
-        let last = system.dimension() - 1;
-        let outcome = loop {
-            let outcome = integrator.advance(end, usize::MAX, |step| {
-                if step.index == 0 && step.time > begin - 0.5 * period {
-                    let state = &step.start[..=last];
-                    strobe.push(PhasePoint { v: state[last], dv_dt: system.voltage_rate(state) });
-                }
-                collector.record(step);
-            })?;
-            if let Some(outcome) = outcome {
-                break outcome;
+/// Holds `system` from the state `from` for as long as `dwell` says.
+fn hold(system: &ReducedSystem, from: &[f64], dwell: Dwell) -> Result<Held, IntegrationError> {
+    let period = system.parameters.period();
+    let (begin, end) = (dwell.discarded as f64 * period, (dwell.discarded + dwell.kept) as f64 * period);
+    let mut integrator = Collocation::new(system, from, Settings::default())?;
+    let mut collector = Collector::new((begin, end), end, 1);
+    let mut strobe: Vec<PhasePoint> = Vec::with_capacity(dwell.kept);
+    let last = system.dimension() - 1;
+    let outcome = loop {
+        let outcome = integrator.advance(end, usize::MAX, |step| {
+            if step.index == 0 && step.time > begin - 0.5 * period {
+                let state = &step.start[..=last];
+                strobe.push(PhasePoint { v: state[last], dv_dt: system.voltage_rate(state) });
             }
-        };
-        let completed = outcome == Outcome::Completed;
-        let summary = collector.summary(integrator.propagator()).filter(|_| completed);
-        let repeats = summary.and_then(|summary| recurrence(&strobe, summary.v_peak, summary.dv_dt_peak));
-        let v_rms = summary.map_or(0.0, |summary| summary.v_rms);
-        let point = SweepPoint {
-            value: 0.0,
-            strobe: if completed { strobe.iter().map(|point| point.v).collect() } else { Vec::new() },
-            v_rms,
-            v_peak: summary.map_or(0.0, |summary| summary.v_peak),
-            power: system.parameters.kappa * v_rms * v_rms,
-            tip: summary.map_or((0.0, 0.0), |summary| (summary.tip_min, summary.tip_max)),
-            period: repeats.and_then(|found| found.period),
-            ended: !completed,
-            restarted: false,
-        };
-        Ok(Held { point, end: completed.then(|| integrator.state().to_vec()) })
-    }
+            collector.record(step);
+        })?;
+        if let Some(outcome) = outcome {
+            break outcome;
+        }
+    };
+    let completed = outcome == Outcome::Completed;
+    let summary = collector.summary(integrator.propagator()).filter(|_| completed);
+    let repeats = summary.and_then(|summary| recurrence(&strobe, summary.v_peak, summary.dv_dt_peak));
+    let v_rms = summary.map_or(0.0, |summary| summary.v_rms);
+    let point = SweepPoint {
+        value: 0.0,
+        strobe: if completed { strobe.iter().map(|point| point.v).collect() } else { Vec::new() },
+        v_rms,
+        v_peak: summary.map_or(0.0, |summary| summary.v_peak),
+        power: system.parameters.kappa * v_rms * v_rms,
+        tip: summary.map_or((0.0, 0.0), |summary| (summary.tip_min, summary.tip_max)),
+        period: repeats.and_then(|found| found.period),
+        ended: !completed,
+        restarted: false,
+    };
+    Ok(Held { point, end: completed.then(|| integrator.state().to_vec()) })
 }

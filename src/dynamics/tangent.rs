@@ -6,7 +6,7 @@
 //! Galgani, Giorgilli & Strelcyn, Meccanica 15, 1980, 9-20).
 
 use super::collocation::Step;
-use super::flow;
+use super::period_map::scales;
 use super::tables::BLOCK;
 use super::variation::Variation;
 use crate::model::{ReducedSystem, RestForce};
@@ -16,7 +16,7 @@ pub(super) const VECTORS: usize = 2;
 
 /// The tangent vectors of a motion and the logarithms of their growth.
 pub(super) struct Tangents {
-    force: Box<dyn RestForce>,
+    force: RestForce,
     scales: Vec<f64>,
     /// Charge theta_n / c per displacement, without a load only: then c v - sum theta_n q_n is conserved, and the
     /// direction that changes it, whose exponent is always zero, is left out.
@@ -31,7 +31,7 @@ pub(super) struct Tangents {
 
 impl Tangents {
     pub(super) fn new(system: &ReducedSystem) -> Self {
-        let scales = flow::scales(system);
+        let scales = scales(system);
         let p = &system.parameters;
         let dimension = scales.len();
         let vector = |seed: f64| -> Vec<f64> {
@@ -66,7 +66,7 @@ impl Tangents {
             self.begun = true;
         }
         let tables = step.tables;
-        let slopes = step.tip.map(|s| self.force.slope(s));
+        let slopes = self.force.slope_at(step.tip);
         let Some(variation) = Variation::new(&tables.tip.from_rest, &slopes) else {
             self.resolved = false;
             return;

@@ -12,8 +12,7 @@ use super::curves::{Curve, CurveEnd, SpecialKind, Start, trace_curve};
 use super::floquet::Instability;
 use super::newton::OrbitSolver;
 use super::plane::{Axis, Plane};
-use crate::model::reduced::ForceVisitor;
-use crate::model::{Parameter, ReducedSystem, RestForce};
+use crate::model::{Parameter, ReducedSystem};
 use crate::theory::{CoupledModes, Resonance};
 
 /// The part of the plane in which a tongue is traced.
@@ -88,32 +87,19 @@ pub fn trace_tongue(
     resonance: Resonance,
     window: Window,
 ) -> Result<Option<Tongue>, OrbitError> {
-    struct Search(ReducedSystem, Instability, f64);
-    impl ForceVisitor for &Search {
-        type Output = Result<Option<Start>, OrbitError>;
-        fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-            let Search(system, kind, limit) = self;
-            let mut solver = OrbitSolver::new(system, force);
-            Ok(match search(&mut solver, *limit, Some(*kind))? {
-                (CriticalExcitation::Unstable { beta, .. }, orbit) => {
-                    let at = [system.parameters.omega, beta];
-                    Some(Start { kind: *kind, periods: 1, at, state: orbit.state })
-                }
-                _ => None,
-            })
-        }
-    }
     let centre = CoupledModes::new(system)?.frequency(resonance);
     let system = system.with_excitation(0.0, centre)?;
-    let search = Search(system, resonance.instability(), window.limit);
-    let Some(start) = search.0.dispatch(&search)? else { return Ok(None) };
+    let kind = resonance.instability();
+    let (found, orbit) = search(&mut OrbitSolver::new(&system), window.limit, Some(kind))?;
+    let CriticalExcitation::Unstable { beta, .. } = found else { return Ok(None) };
+    let start = Start { kind, periods: 1, at: [centre, beta], state: orbit.state };
     let (lowest, highest) = Parameter::Omega.range();
     let omegas = ((centre - window.span).max(lowest), (centre + window.span).min(highest));
     let plane = Plane::new([
         Axis { parameter: Parameter::Omega, range: omegas },
         Axis { parameter: Parameter::Beta, range: (0.0, window.limit) },
     ])?;
-    let curve = trace_curve(&search.0, &start, &plane)?;
+    let curve = trace_curve(&system, &start, &plane)?;
     Ok(Some(Tongue::of(&curve)))
 }
 

@@ -4,8 +4,7 @@ use super::collocation::{Collocation, Step};
 use super::propagator::{Propagator, StepRest, Workspace};
 use super::tables::NodeValues;
 use super::{IntegrationError, Outcome, Settings};
-use crate::model::reduced::ForceVisitor;
-use crate::model::{ReducedSystem, RestForce};
+use crate::model::ReducedSystem;
 
 /// The steps of a run. Between them the linear part is propagated exactly under the step's polynomial R.
 #[derive(Debug, Clone)]
@@ -34,26 +33,19 @@ impl Trajectory {
         t_end: f64,
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
-        struct Run<'a>(&'a ReducedSystem, &'a [f64], f64, Settings);
-        impl ForceVisitor for Run<'_> {
-            type Output = Result<Trajectory, IntegrationError>;
-            fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-                let mut integrator = Collocation::new(self.0, force, self.1, self.3)?;
-                let mut recorder = Trajectory::recorder(&integrator);
-                loop {
-                    let outcome = integrator.advance(self.2, usize::MAX, |step| recorder.record(step))?;
-                    if let Some(outcome) = outcome {
-                        recorder.finish(&integrator, outcome);
-                        return Ok(recorder);
-                    }
-                }
+        let mut integrator = Collocation::new(system, initial, settings)?;
+        let mut recorder = Self::recorder(&integrator);
+        loop {
+            let outcome = integrator.advance(t_end, usize::MAX, |step| recorder.record(step))?;
+            if let Some(outcome) = outcome {
+                recorder.finish(&integrator, outcome);
+                return Ok(recorder);
             }
         }
-        system.dispatch(Run(system, initial, t_end, settings))
     }
 
     /// An empty trajectory that [`Self::record`] fills from the run of `integrator`.
-    pub fn recorder<F: RestForce>(integrator: &Collocation<F>) -> Self {
+    pub fn recorder(integrator: &Collocation) -> Self {
         let propagator = integrator.propagator().clone();
         Self {
             width: propagator.part().extended_dimension(),
@@ -76,7 +68,7 @@ impl Trajectory {
     }
 
     /// Closes the record of `integrator`'s run with its `outcome`.
-    pub fn finish<F: RestForce>(&mut self, integrator: &Collocation<F>, outcome: Outcome) {
+    pub fn finish(&mut self, integrator: &Collocation, outcome: Outcome) {
         self.outcome = outcome;
         self.final_state = integrator.state().to_vec();
         self.end_time = integrator.time();

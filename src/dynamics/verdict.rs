@@ -16,7 +16,7 @@ use super::voltage_spectrum::{Peak, VoltageSpectrumError};
 use super::{Inquiry, IntegrationError};
 use crate::model::force::Exact;
 use crate::model::limits::LINEAR_BEAM;
-use crate::model::{ForceLaw, ReducedSystem, RestForce};
+use crate::model::{ForceLaw, ReducedSystem};
 
 /// Distance from the periodic motion, relative to the amplitude, beyond which the transient has not gone.
 const TRANSIENT: f64 = 1e-3;

@@ -1,10 +1,10 @@
 //! The run behind the linked plots: computed in slices, so that a frame never waits for it.
 
+use crate::dynamics::collocation::Step;
 use crate::dynamics::poincare::{PhasePoint, Recurrence, recurrence};
 use crate::dynamics::summary::{Collector, Envelope, Summary};
 use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
-use crate::model::reduced::ForceVisitor;
-use crate::model::{ModelError, ReducedSystem, RestForce};
+use crate::model::{ModelError, ReducedSystem};
 use crate::scenario::Scenario;
 
 /// Slices of the voltage's envelope; about as many as a plot has pixels.
@@ -67,7 +67,7 @@ pub enum RunError {
 
 /// A run being computed.
 pub struct RunJob {
-    stage: Box<dyn Stage>,
+    integrator: Collocation,
     system: ReducedSystem,
     t_end: f64,
     recorder: Option<Recorder>,
@@ -87,7 +87,7 @@ impl RunJob {
     pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
         let (system, initial) = scenario.validate()?;
         let t_end = scenario.t_end;
-        let stage = system.dispatch(Start { system: &system, initial: &initial })?;
+        let integrator = Collocation::new(&system, &initial, Settings::default())?;
         let period = system.parameters.period();
         // Whole pairs of periods, so that means are those of the motion, also when its period has doubled.
         let last = (t_end / period + 1e-9).floor();
@@ -96,16 +96,16 @@ impl RunJob {
         let slices = (t_end / (PERIODS_PER_SLICE * period)) as usize;
         let slices = slices.clamp(LEAST_SLICES, ENVELOPE_SLICES);
         let recorder = Recorder {
-            trajectory: stage.recorder(),
+            trajectory: Trajectory::recorder(&integrator),
             strobe: Vec::with_capacity((t_end / period) as usize + 2),
             collector: Collector::new(window, t_end, slices),
         };
-        Ok(Self { stage, system, t_end, recorder: Some(recorder) })
+        Ok(Self { integrator, system, t_end, recorder: Some(recorder) })
     }
 
     /// Done part of the run, 0 to 1.
     pub fn progress(&self) -> f64 {
-        (self.stage.time() / self.t_end).clamp(0.0, 1.0)
+        (self.integrator.time() / self.t_end).clamp(0.0, 1.0)
     }
 
     /// Goes on for at most `steps` steps; the finished run once there is one.
@@ -114,13 +114,14 @@ impl RunJob {
     /// [`IntegrationError`] when the motion cannot be resolved.
     pub fn advance(&mut self, steps: usize) -> Result<Option<Run>, RunError> {
         let Some(mut recorder) = self.recorder.take() else { return Ok(None) };
-        match self.stage.advance(self.t_end, steps, &self.system, &mut recorder)? {
-            None => {
-                self.recorder = Some(recorder);
-                Ok(None)
-            }
-            Some(_) => Ok(Some(recorder.finish(self.system.clone()))),
-        }
+        let outcome =
+            self.integrator.advance(self.t_end, steps, |step| recorder.record(step, &self.system))?;
+        let Some(outcome) = outcome else {
+            self.recorder = Some(recorder);
+            return Ok(None);
+        };
+        recorder.trajectory.finish(&self.integrator, outcome);
+        Ok(Some(recorder.finish(self.system.clone())))
     }
 }
 
@@ -132,6 +133,15 @@ struct Recorder {
 }
 
 impl Recorder {
+    fn record(&mut self, step: &Step<'_>, system: &ReducedSystem) {
+        if step.index == 0 {
+            let state = &step.start[..system.dimension()];
+            self.strobe.push(PhasePoint { v: state[state.len() - 1], dv_dt: system.voltage_rate(state) });
+        }
+        self.trajectory.record(step);
+        self.collector.record(step);
+    }
+
     fn finish(self, system: ReducedSystem) -> Run {
         let Self { trajectory, strobe, collector } = self;
         let summary = collector.summary(trajectory.propagator()).or_else(|| whole_run(&trajectory, &system));
@@ -173,63 +183,4 @@ fn whole_run(trajectory: &Trajectory, system: &ReducedSystem) -> Option<Summary>
     summary.v_rms = summary.v_rms.sqrt();
     summary.v_peak_whole = summary.v_peak;
     Some(summary)
-}
-
-/// An integrator whose force law is hidden, so that a job has one type.
-trait Stage {
-    fn time(&self) -> f64;
-    fn recorder(&self) -> Trajectory;
-    fn advance(
-        &mut self,
-        t_end: f64,
-        steps: usize,
-        system: &ReducedSystem,
-        recorder: &mut Recorder,
-    ) -> Result<Option<Outcome>, IntegrationError>;
-}
-
-impl<F: RestForce> Stage for Collocation<F> {
-    fn time(&self) -> f64 {
-        Self::time(self)
-    }
-
-    fn recorder(&self) -> Trajectory {
-        Trajectory::recorder(self)
-    }
-
-    fn advance(
-        &mut self,
-        t_end: f64,
-        steps: usize,
-        system: &ReducedSystem,
-        recorder: &mut Recorder,
-    ) -> Result<Option<Outcome>, IntegrationError> {
-        let Recorder { trajectory, strobe, collector } = recorder;
-        let dimension = system.dimension();
-        let outcome = Self::advance(self, t_end, steps, |step| {
-            if step.index == 0 {
-                let state = &step.start[..dimension];
-                strobe.push(PhasePoint { v: state[dimension - 1], dv_dt: system.voltage_rate(state) });
-            }
-            trajectory.record(step);
-            collector.record(step);
-        })?;
-        if let Some(outcome) = outcome {
-            trajectory.finish(self, outcome);
-        }
-        Ok(outcome)
-    }
-}
-
-struct Start<'a> {
-    system: &'a ReducedSystem,
-    initial: &'a [f64],
-}
-
-impl ForceVisitor for Start<'_> {
-    type Output = Result<Box<dyn Stage>, IntegrationError>;
-
-    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-        Ok(Box::new(Collocation::new(self.system, force, self.initial, Settings::default())?))
-    }
 }

@@ -1,6 +1,6 @@
 //! The N-mode truncation (Eqs. 27-34): coefficients, right-hand side and its Jacobian side by side.
 
-use super::force::{Exact, Polynomial, Quadratic};
+use super::force::{Exact, Polynomial};
 use super::{Equilibrium, ForceLaw, Magnet, ModeSet, ModelError, Parameters, RestForce, state_dimension};
 
 /// The N-mode system, ready to be integrated.
@@ -83,28 +83,15 @@ impl ReducedSystem {
         (1..=count).map(|j| self.magnet().taylor_coefficient(self.equilibrium.gap, j)).collect()
     }
 
-    /// The law's R(s), for use where speed does not matter; hot loops are generic and enter through
-    /// [`Self::dispatch`].
-    pub fn rest_force(&self) -> Box<dyn RestForce> {
-        struct Boxed;
-        impl ForceVisitor for Boxed {
-            type Output = Box<dyn RestForce>;
-            fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-                Box::new(force)
-            }
-        }
-        self.dispatch(Boxed)
-    }
-
-    /// Calls `visitor` with the concrete force law, so that code generic over the law is compiled once for each.
-    pub fn dispatch<V: ForceVisitor>(&self, visitor: V) -> V::Output {
+    /// The law's R(s).
+    pub fn rest_force(&self) -> RestForce {
         let (magnet, rest) = (self.magnet(), &self.equilibrium);
         match self.law {
-            ForceLaw::Quadratic => visitor.visit(Quadratic { c2: magnet.taylor_coefficient(rest.gap, 2) }),
-            ForceLaw::Taylor(degree) => visitor.visit(Polynomial::new(&magnet, rest, degree)),
+            ForceLaw::Quadratic => RestForce::Quadratic { c2: magnet.taylor_coefficient(rest.gap, 2) },
+            ForceLaw::Taylor(degree) => RestForce::Polynomial(Polynomial::new(&magnet, rest, degree)),
             // Without magnets the tip may pass the place where they would touch, a pole of the exact law.
-            ForceLaw::Exact if magnet.c0 == 0.0 => visitor.visit(Quadratic { c2: 0.0 }),
-            ForceLaw::Exact => visitor.visit(Exact::new(&magnet, rest)),
+            ForceLaw::Exact if magnet.c0 == 0.0 => RestForce::Quadratic { c2: 0.0 },
+            ForceLaw::Exact => RestForce::Exact(Exact::new(&magnet, rest)),
         }
     }
 
@@ -167,14 +154,6 @@ impl ReducedSystem {
         jacobian[(2 * n, 2 * n)] = -p.kappa / p.c;
         jacobian
     }
-}
-
-/// Code that is generic over the force law; see [`ReducedSystem::dispatch`].
-pub trait ForceVisitor {
-    /// What the visit returns.
-    type Output;
-    /// Receives the concrete law.
-    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output;
 }
 
 #[cfg(test)]

@@ -7,29 +7,24 @@ use harvester_lab::dynamics::floquet::multipliers;
 use harvester_lab::dynamics::{
     Course, Instability, Orbit, OrbitError, PeriodMap, Plane, follow_branch, follow_doubled,
 };
-use harvester_lab::model::reduced::ForceVisitor;
-use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, ReducedSystem, RestForce};
+use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, ReducedSystem};
 use nalgebra::Complex;
 
 use crate::support::*;
 
-struct Multipliers<'a>(&'a ReducedSystem, &'a [f64]);
-
-impl ForceVisitor for Multipliers<'_> {
-    type Output = Result<(f64, Vec<Complex<f64>>), OrbitError>;
-    /// How far a state misses itself after a period, over the gap, and the multipliers: without Newton's iteration,
-    /// which knows no orbit at a fold.
-    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-        let Self(system, state) = self;
-        let mut map = PeriodMap::new(system, force);
-        let beta = system.parameters.beta;
-        while map.apply(state, beta, 1, |_, _| ())? > 1e-3 {
-            map.refine()?;
-        }
-        let misses =
-            map.image().iter().zip(state).zip(map.scales()).map(|((a, b), scale)| (a - b).abs() / scale);
-        Ok((misses.fold(0.0, f64::max) / map.gap(), multipliers(&map.scaled_derivative())?))
+/// How far a state misses itself after a period, over the gap, and the multipliers: without Newton's iteration,
+/// which knows no orbit at a fold.
+fn miss_and_multipliers(
+    system: &ReducedSystem,
+    state: &[f64],
+) -> Result<(f64, Vec<Complex<f64>>), OrbitError> {
+    let mut map = PeriodMap::new(system);
+    let beta = system.parameters.beta;
+    while map.apply(state, beta, 1, |_, _| ())? > 1e-3 {
+        map.refine()?;
     }
+    let misses = map.image().iter().zip(state).zip(map.scales()).map(|((a, b), scale)| (a - b).abs() / scale);
+    Ok((misses.fold(0.0, f64::max) / map.gap(), multipliers(&map.scaled_derivative())?))
 }
 
 /// The multipliers of the orbit at a point of codimension two, which is there.
@@ -39,7 +34,7 @@ fn multipliers_at(
     point: &SpecialPoint,
 ) -> Fallible<Vec<Complex<f64>>> {
     let there = at(system, plane, point.at)?;
-    let (missed, multipliers) = there.dispatch(Multipliers(&there, &point.state))?;
+    let (missed, multipliers) = miss_and_multipliers(&there, &point.state)?;
     assert!(missed < 1e-8, "{} {:?}: {missed:e}", point.kind, point.at);
     Ok(multipliers)
 }

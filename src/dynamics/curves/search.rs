@@ -15,8 +15,7 @@ use super::tracer::trace_curve;
 use crate::dynamics::boundary::Forced;
 use crate::dynamics::plane::{Axis, Plane};
 use crate::dynamics::{Branch, Course, Instability, OrbitError, OrbitSolver, follow_branch, follow_doubled};
-use crate::model::reduced::ForceVisitor;
-use crate::model::{Parameter, ReducedSystem, RestForce};
+use crate::model::{Parameter, ReducedSystem};
 use crate::theory::spectrum::eigenvalues;
 
 /// Most points of a branch along a line: a resonance can be followed up without end, and beyond about this many the tip
@@ -219,18 +218,10 @@ fn branch_from(
 
 /// The state of the motion that grows out of rest as beta grows from 0 to that of `system`.
 fn forced_state(system: &ReducedSystem) -> Result<Vec<f64>, OrbitError> {
-    struct Grow<'a>(&'a ReducedSystem);
-    impl ForceVisitor for Grow<'_> {
-        type Output = Result<Vec<f64>, OrbitError>;
-        fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-            let mut solver = OrbitSolver::new(self.0, force);
-            let rest = Forced::at_rest(&mut solver)?;
-            let beta = self.0.parameters.beta;
-            let there = rest.march_to(&mut solver, beta)?;
-            there.map(|forced| forced.state).ok_or(OrbitError::MotionEnds { beta })
-        }
-    }
-    system.dispatch(Grow(system))
+    let mut solver = OrbitSolver::new(system);
+    let beta = system.parameters.beta;
+    let there = Forced::at_rest(&mut solver)?.march_to(&mut solver, beta)?;
+    there.map(|forced| forced.state).ok_or(OrbitError::MotionEnds { beta })
 }
 
 /// Adds the bifurcations of `branch`, along the axis `along` through `at`.

@@ -9,7 +9,7 @@ use crate::dynamics::motion::Horizon;
 use crate::dynamics::tongue::Window;
 use crate::dynamics::{Motion, reach};
 use crate::model::force::Exact;
-use crate::model::{ForceLaw, MAX_MODES, ReducedSystem, RestForce};
+use crate::model::{ForceLaw, MAX_MODES, ReducedSystem};
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
 

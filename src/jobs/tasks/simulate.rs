@@ -6,8 +6,7 @@ use super::{Answer, count};
 use crate::dynamics::rk4::RungeKutta4;
 use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
 use crate::jobs::RequestError;
-use crate::model::reduced::ForceVisitor;
-use crate::model::{ModelError, ParameterSet, ReducedSystem, RestForce};
+use crate::model::{ModelError, ParameterSet, ReducedSystem};
 use crate::scenario::ModelChoice;
 
 const TOLERANCES: (f64, f64) = (1e-10, 1e-2);
@@ -101,48 +100,18 @@ impl SimulateRequest {
         let system = self.model.system(self.parameters)?;
         let initial = self.initial.clone().unwrap_or_else(|| vec![0.0; system.dimension()]);
         let answer = match self.method {
-            Method::Adaptive => {
-                let settings = Settings { tolerance: self.tolerance };
-                system.dispatch(Adaptive {
-                    system: &system,
-                    initial: &initial,
-                    t_end,
-                    settings,
-                    request: self,
-                })?
-            }
+            Method::Adaptive => self.adaptive(&system, &initial)?,
             Method::Rk4 => {
                 let limit = MOST_STEPS * system.parameters.period() / f64::from(self.steps_per_period);
                 ModelError::check("t_end", t_end, (END_TIME.0, limit), "")?;
-                system.dispatch(Classical { system: &system, initial: &initial, t_end, request: self })?
+                self.classical(&system, &initial)?
             }
         };
         Ok(Answer::Simulate(answer))
     }
-}
 
-/// The times of the samples that a run ending at `end` reaches, and last `end` itself.
-fn sample_times(request: &SimulateRequest, end: f64) -> Vec<f64> {
-    let count = request.samples;
-    let time = |i: usize| request.t_end * i as f64 / (count - 1) as f64;
-    let mut times: Vec<f64> = (0..count - 1).map(time).filter(|time| *time < end).collect();
-    times.push(end);
-    times
-}
-
-struct Adaptive<'a> {
-    system: &'a ReducedSystem,
-    initial: &'a [f64],
-    t_end: f64,
-    settings: Settings,
-    request: &'a SimulateRequest,
-}
-
-impl ForceVisitor for Adaptive<'_> {
-    type Output = Result<SimulateAnswer, IntegrationError>;
-
-    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-        let mut integrator = Collocation::new(self.system, force, self.initial, self.settings)?;
+    fn adaptive(&self, system: &ReducedSystem, initial: &[f64]) -> Result<SimulateAnswer, IntegrationError> {
+        let mut integrator = Collocation::new(system, initial, Settings { tolerance: self.tolerance })?;
         let mut trajectory = Trajectory::recorder(&integrator);
         let outcome = loop {
             let steps = integrator.advance(self.t_end, usize::MAX, |step| trajectory.record(step))?;
@@ -151,30 +120,19 @@ impl ForceVisitor for Adaptive<'_> {
             }
         };
         trajectory.finish(&integrator, outcome);
-        let t = sample_times(self.request, trajectory.end_time());
+        let t = self.sample_times(trajectory.end_time());
         let mut state = Vec::with_capacity(t.len());
         trajectory.read_at(&t, |_, values| state.push(values.to_vec()));
         let t_outcome = trajectory.end_time();
         Ok(SimulateAnswer { t, state, outcome: word(outcome), t_outcome, steps: integrator.steps() })
     }
-}
-
-struct Classical<'a> {
-    system: &'a ReducedSystem,
-    initial: &'a [f64],
-    t_end: f64,
-    request: &'a SimulateRequest,
-}
-
-impl ForceVisitor for Classical<'_> {
-    type Output = Result<SimulateAnswer, IntegrationError>;
 
     /// Samples are given at the grid point nearest to their time: the method has no dense output.
-    fn visit<F: RestForce + 'static>(self, force: F) -> Self::Output {
-        let mut run = RungeKutta4::new(self.system, force, self.initial, self.request.steps_per_period)?;
+    fn classical(&self, system: &ReducedSystem, initial: &[f64]) -> Result<SimulateAnswer, IntegrationError> {
+        let mut run = RungeKutta4::new(system, initial, self.steps_per_period)?;
         let length = run.step_length();
         let last = (self.t_end / length).round() as u64;
-        let mut due = sample_times(self.request, self.t_end).into_iter().map(|t| (t / length).round() as u64);
+        let mut due = self.sample_times(self.t_end).into_iter().map(|t| (t / length).round() as u64);
         let mut next = due.next();
         let (mut t, mut state) = (Vec::new(), Vec::new());
         let mut outcome = Outcome::Completed;
@@ -195,5 +153,14 @@ impl ForceVisitor for Classical<'_> {
             }
         }
         Ok(SimulateAnswer { t, state, outcome: word(outcome), t_outcome: run.time(), steps: run.steps() })
+    }
+
+    /// The times of the samples that a run ending at `end` reaches, and last `end` itself.
+    fn sample_times(&self, end: f64) -> Vec<f64> {
+        let count = self.samples;
+        let time = |i: usize| self.t_end * i as f64 / (count - 1) as f64;
+        let mut times: Vec<f64> = (0..count - 1).map(time).filter(|time| *time < end).collect();
+        times.push(end);
+        times
     }
 }
