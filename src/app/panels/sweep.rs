@@ -92,7 +92,11 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
         ui.add_space(4.0);
         let range = questions::sweep_range(context.view, context.session);
         if wide {
-            ui.columns(2, |columns| ends(columns, &mut sweep, range));
+            let usual = std::mem::replace(&mut ui.spacing_mut().item_spacing.x, 28.0);
+            ui.columns(2, |columns| {
+                columns.iter_mut().for_each(|column| column.spacing_mut().item_spacing.x = usual);
+                ends(columns, &mut sweep, range);
+            });
         } else {
             ends(std::slice::from_mut(ui), &mut sweep, range);
         }
