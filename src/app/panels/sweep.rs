@@ -12,13 +12,15 @@ use crate::dynamics::sweep::Dwell;
 use crate::model::Parameter;
 
 /// The parameters that can be swept, with their symbols.
-const PARAMETERS: [(Parameter, &str); 8] = [
+const PARAMETERS: [(Parameter, &str); 10] = [
     (Parameter::Omega, "ω"),
     (Parameter::Beta, "β"),
     (Parameter::Alpha, "α"),
     (Parameter::D, "d"),
     (Parameter::C0, "c₀"),
+    (Parameter::H, "h"),
     (Parameter::Eta, "η"),
+    (Parameter::C, "c"),
     (Parameter::Kappa, "κ"),
     (Parameter::Theta, "θ"),
 ];
@@ -55,11 +57,7 @@ pub(super) fn title(parameter: Parameter) -> (&'static str, &'static str) {
         Parameter::Kappa => "load conductance",
         Parameter::Theta => "coupling",
     };
-    let symbol = match parameter {
-        Parameter::H => "h",
-        Parameter::C => "c",
-        _ => PARAMETERS.iter().find(|(other, _)| *other == parameter).map_or("", |(_, symbol)| symbol),
-    };
+    let symbol = PARAMETERS.iter().find(|(other, _)| *other == parameter).map_or("", |(_, symbol)| symbol);
     (name, symbol)
 }
 
