@@ -11,7 +11,9 @@ pub mod exact;
 pub use exact::Exact;
 
 /// Which R(s) the tip feels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum ForceLaw {
     /// c_2 s^2, the paper's truncation (section 3).

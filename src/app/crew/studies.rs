@@ -79,19 +79,24 @@ impl Studies {
     /// How many of the lanes are urgent: they are served also while the user's hand moves.
     pub(super) const URGENT: usize = 3;
 
+    /// All lanes with their names, most urgent first.
+    fn named_lanes(&mut self) -> [(&'static str, &mut dyn Traffic); 9] {
+        [
+            ("answers", &mut self.answers),
+            ("tongues", &mut self.tongues),
+            ("verdict", &mut self.inspection),
+            ("multipliers", &mut self.multipliers),
+            ("response", &mut self.response),
+            ("sweep", &mut self.sweep),
+            ("curves", &mut self.curves),
+            ("motions", &mut self.motions),
+            ("basin", &mut self.basin),
+        ]
+    }
+
     /// All lanes, most urgent first.
     pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; 9] {
-        [
-            &mut self.answers,
-            &mut self.tongues,
-            &mut self.inspection,
-            &mut self.multipliers,
-            &mut self.response,
-            &mut self.sweep,
-            &mut self.curves,
-            &mut self.motions,
-            &mut self.basin,
-        ]
+        self.named_lanes().map(|(_, lane)| lane)
     }
 
     /// Whether anything is under way or waits to be, besides requests from outside.
@@ -111,18 +116,8 @@ impl Studies {
 
     /// Names and done parts, 0 to 1, of what is under way.
     pub(in crate::app) fn progress(&mut self) -> Vec<(&'static str, f64)> {
-        const NAMES: [&str; 9] = [
-            "answers",
-            "verdict",
-            "tongues",
-            "response",
-            "sweep",
-            "curves",
-            "multipliers",
-            "motions",
-            "basin",
-        ];
-        NAMES.iter().zip(self.lanes()).filter_map(|(name, lane)| Some((*name, lane.progress()?))).collect()
+        let lanes = self.named_lanes();
+        lanes.into_iter().filter_map(|(name, lane)| Some((name, lane.progress()?))).collect()
     }
 
     /// Asks for what the view shows.
