@@ -74,6 +74,9 @@ fn says_how_soon_a_moved_slider_is_answered_and_how_fast_the_page_computes() {
         frames.len()
     );
 
+    page.wait_until("the workers to be free", |state| {
+        state["progress"].as_array().is_some_and(Vec::is_empty)
+    });
     let request = Value::from(FIGURE_4).to_string();
     let script = format!(
         "return (async function() {{ const times = []; for (let i = 0; i < 9; i++) {{ const start = performance.now(); \
