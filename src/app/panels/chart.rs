@@ -4,6 +4,7 @@ use egui::{Color32, Id, TextureHandle, Ui};
 use egui_plot::PlotBounds;
 
 use super::Context;
+use super::design::safety::Safety;
 use super::stability_map::{self, drag_point};
 use crate::app::command::Command;
 use crate::app::map::{Boundaries, ceiling};
@@ -59,8 +60,11 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         Layer::Motion => motion_legend(ui, tokens),
         layer @ (Layer::Voltage | Layer::Power) => {
             let top = context.studies.motions.study().map_or(0.0, |chart| highest(chart, layer));
-            let (top, unit) =
-                if layer == Layer::Voltage { (top, "V rms") } else { (microwatts() * top, "µW") };
+            let (top, unit) = if layer == Layer::Voltage {
+                (top, "V rms")
+            } else {
+                (microwatts(&context.view.scenario) * top, "µW")
+            };
             ui.horizontal(|ui| {
                 colour_bar(ui, "0", &format!("{} {unit}", significant(top, 3)), colours::sequential);
             });
@@ -89,6 +93,7 @@ fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
         (colour(Motion::Quasiperiodic), "torus"),
         (colour(Motion::Chaotic), "chaotic"),
         (colour(Motion::Escape { time: 0.0 }), "escape or contact"),
+        (tokens.danger, "hatched: beyond a limit"),
     ];
     swatches(ui, &entries);
 }
@@ -140,8 +145,20 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
             colours::sequential(value(&cell, layer) / top)
         }
     };
-    let paint = |column, row| chart.shown(column, row).map(|cell| cell.map_or(tokens.inset, colour));
-    let revision = revision(chart.version(), context.studies.motions.generation());
+    let safety = Safety::of(context.view);
+    let unsafe_in = |cell: &Cell| match (&safety, cell.demand()) {
+        (Some(safety), Some(demand)) => !safety.limits.allow(&demand, safety.gap),
+        _ => false,
+    };
+    let paint = |column: usize, row: usize| {
+        let cell = chart.shown(column, row)?;
+        // Every other cell beyond a limit, so that what lies below stays legible.
+        let hatched = (column + row).is_multiple_of(2) && cell.as_ref().is_some_and(unsafe_in);
+        let colour = cell.map_or(tokens.inset, colour);
+        Some(if hatched { colour.lerp_to_gamma(tokens.danger, 0.8) } else { colour })
+    };
+    let limits = safety.as_ref().map_or(0, Safety::fingerprint);
+    let revision = revision(chart.version(), context.studies.motions.generation()) ^ limits;
     let texture = raster(ui, Id::unique("motion chart"), revision, question.size, paint)?;
     Some(Picture { texture, omega: question.x.1, beta: question.y.1, known: chart.version() > 0 })
 }

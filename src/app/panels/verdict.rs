@@ -3,9 +3,12 @@
 use egui::{RichText, Ui};
 
 use super::Context;
+use super::design::safety::Safety;
 use crate::app::reading::{Reading, Tone};
-use crate::app::session::Status;
+use crate::app::session::{Shown, Status};
 use crate::app::{fonts, theme};
+use crate::dynamics::Outcome;
+use crate::model::Demand;
 
 /// Draws the bar.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -23,6 +26,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         (_, Tone::Notable) => tokens.warning,
         (_, Tone::Plain) => tokens.ok,
     };
+    let broken = broken(context, shown);
     let frame = egui::Frame::new()
         .fill(tokens.card)
         .corner_radius(theme::radius::CARD)
@@ -39,12 +43,15 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             ui.label(
                 RichText::new(&reading.headline).font(fonts::semibold(theme::size::HEADING)).color(colour),
             );
-            separated(ui, &reading.facts, |text| RichText::new(text).color(tokens.text));
+            separated(ui, &reading.facts, &|text| RichText::new(text).color(tokens.text));
+            for text in broken {
+                ui.label(RichText::new(format!("beyond a limit: {text}")).color(tokens.danger));
+            }
         });
         if !reading.remarks.is_empty() {
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing.x = 8.0;
-                separated(ui, &reading.remarks, |text| RichText::new(text).small().color(tokens.text_weak));
+                separated(ui, &reading.remarks, &|text| RichText::new(text).small().color(tokens.text_weak));
             });
         }
     });
@@ -54,8 +61,23 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     ui.painter().rect_filled(stripe, rounding, colour);
 }
 
+/// The limits of the Design tab that the motion in view breaks.
+fn broken(context: &Context<'_>, shown: &Shown) -> Vec<String> {
+    let lasts = shown.run.outcome() == Outcome::Completed;
+    let summary = shown.run.summary.as_ref().filter(|_| lasts);
+    let demand = summary.map(|summary| Demand {
+        v_peak: summary.v_peak,
+        tip: (summary.tip_min, summary.tip_max),
+        slope: None,
+    });
+    match (Safety::of(context.view), demand) {
+        (Some(safety), Some(demand)) => safety.broken(&demand),
+        _ => Vec::new(),
+    }
+}
+
 /// Texts with a middle dot between them.
-fn separated(ui: &mut Ui, texts: &[String], style: impl Fn(String) -> RichText) {
+pub(super) fn separated(ui: &mut Ui, texts: &[String], style: &dyn Fn(String) -> RichText) {
     for (i, text) in texts.iter().enumerate() {
         if i > 0 {
             ui.label(style("·".to_owned()));
