@@ -178,7 +178,11 @@ impl App {
             Command::Measure(None) => self.bench.measured = bench::measured::Measured::default(),
             Command::LoadFigure(number) => self.load_figure(number),
             Command::Enlarge(panel) => self.view.enlarged = panel,
-            Command::Pin(keep) => self.session.pin(keep),
+            Command::Pin(keep) => {
+                self.session.pin(keep);
+                let crew = self.crew.borrow();
+                self.bench.pinned = keep.then(|| crew.studies.bench.pinned(&self.view.scenario));
+            }
             Command::SetDark(dark) => self.view.dark = Some(dark),
             Command::SetProjector(large) => self.view.projector = large,
             Command::MoveBeam(moves) => self.view.beam_moves = moves,

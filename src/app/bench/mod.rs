@@ -6,6 +6,8 @@ pub(super) mod questions;
 use measured::Measured;
 
 use super::view::View;
+use crate::jobs::design::Operating;
+use crate::jobs::study::harvest::HarvestStudy;
 use crate::model::{Device, Dimension, Limits, ModelError};
 use crate::scenario::Scenario;
 
@@ -16,6 +18,16 @@ pub(super) struct Bench {
     pub refusal: Option<String>,
     /// Measured data.
     pub measured: Measured,
+    /// Curves and numbers kept to compare with.
+    pub pinned: Option<Box<Pinned>>,
+}
+
+/// A device that was pinned.
+pub(super) struct Pinned {
+    /// What it delivers over frequency, if that was known.
+    pub harvest: Option<HarvestStudy>,
+    /// What it delivers as it was.
+    pub operating: Option<Operating>,
 }
 
 /// Relative difference below which two dimensions are the same but for rounding.

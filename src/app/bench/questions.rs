@@ -21,6 +21,8 @@ use crate::scenario::{ModelChoice, Scenario};
 
 /// Loads whose best frequency is looked for: every so many of those in view.
 const EVERY_LOAD: usize = 4;
+/// Power (W) that counts in the band of a candidate unless one is chosen.
+pub(in crate::app) const LEAST: f64 = 1e-6;
 /// Frequencies of the band of a candidate.
 const BAND_POINTS: usize = 12;
 /// Frequencies of a curve.
@@ -150,7 +152,7 @@ fn variable(view: &View, session: &Session, side: &Side) -> Variable {
     Variable { coordinate: Coordinate::Dimension(side.dimension), range, logarithmic }
 }
 
-fn objective(view: &View, session: &Session, highest: Option<f64>) -> Objective {
+fn objective(view: &View, session: &Session) -> Objective {
     match view.design.search.aim {
         Aim::Power => Objective::Power,
         Aim::PerG2 => Objective::PowerPerG2,
@@ -159,15 +161,14 @@ fn objective(view: &View, session: &Session, highest: Option<f64>) -> Objective 
         Aim::Band => {
             let (low, high) = window(view, session);
             let units = view.scenario.units();
-            let least = view.design.least.or(highest.map(|power| round_significant(0.5 * power, 2)));
             let (from, to, count) = (units.hertz(low), units.hertz(high), BAND_POINTS);
-            Objective::Band { least: least.unwrap_or(1e-6), from, to, count }
+            Objective::Band { least: view.design.least.unwrap_or(LEAST), from, to, count }
         }
     }
 }
 
 /// The map in view. What its sides vary must not make another question.
-pub(in crate::app) fn map(view: &View, session: &Session, highest: Option<f64>) -> FindQuestion {
+pub(in crate::app) fn map(view: &View, session: &Session) -> FindQuestion {
     let variables: Vec<Variable> =
         view.design.search.sides.iter().map(|side| variable(view, session, side)).collect();
     let mut scenario = view.scenario.clone();
@@ -176,7 +177,7 @@ pub(in crate::app) fn map(view: &View, session: &Session, highest: Option<f64>) 
     if let Ok(anywhere) = at_place(&scenario, &coordinates, &middles) {
         scenario = anywhere;
     }
-    let objective = objective(view, session, highest);
+    let objective = objective(view, session);
     FindQuestion { scenario, variables, objective, limits: bench::limits(view) }
 }
 
@@ -185,6 +186,6 @@ pub(in crate::app) fn find(view: &View, session: &Session) -> FindQuestion {
     let search = &view.design.search;
     let sides = search.sides.iter().chain(&search.third);
     let variables = sides.map(|side| variable(view, session, side)).collect();
-    let objective = objective(view, session, None);
+    let objective = objective(view, session);
     FindQuestion { scenario: view.scenario.clone(), variables, objective, limits: bench::limits(view) }
 }

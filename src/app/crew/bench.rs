@@ -1,7 +1,7 @@
 //! What is being studied for the Design tab.
 
 use super::studies::{offer, open};
-use crate::app::bench::questions;
+use crate::app::bench::{Pinned, questions};
 use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::view::design::Page;
@@ -86,7 +86,7 @@ impl BenchStudies {
     }
 
     fn ask_map(&mut self, view: &View, session: &Session) {
-        let question = questions::map(view, session, None);
+        let question = questions::map(view, session);
         if self.map.study().is_none_or(|study| *study.question() != question)
             && let Ok(study) = DesignMap::new(question, MAP)
         {
@@ -140,6 +140,12 @@ impl BenchStudies {
             Work::Design(DesignWork::Operating { scenario: of }) if of == scenario
         );
         Some((found, current))
+    }
+
+    /// What is known of `scenario`, to be kept.
+    pub(in crate::app) fn pinned(&self, scenario: &Scenario) -> Box<Pinned> {
+        let operating = self.operating(scenario).and_then(|(found, _)| found.ok().cloned());
+        Box::new(Pinned { harvest: self.harvest.study().cloned(), operating })
     }
 
     /// What the linear device would give at its own first resonance (Hz).

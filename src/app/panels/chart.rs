@@ -12,7 +12,7 @@ use crate::app::theme::{self, Tokens};
 use crate::app::view::{Layer, Panel};
 use crate::app::widgets::number::significant;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips, colour_bar, draw_raster, raster, swatches};
+use crate::app::widgets::{HATCH, Series, chips, colour_bar, draw_cells, on_hatching, raster, swatches};
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
 use crate::dynamics::motion::{Cell, Motion};
@@ -113,6 +113,8 @@ fn value(cell: &Cell, layer: Layer) -> f64 {
 /// What is drawn under the curves.
 struct Picture {
     texture: TextureHandle,
+    /// Pixels a side of a cell.
+    side: usize,
     omega: (f64, f64),
     beta: (f64, f64),
     /// Whether any of it answers the newest question.
@@ -132,7 +134,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
         let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
         let texture = raster(ui, Id::unique("multiplier chart"), revision, question.size, paint)?;
         let known = chart.version() > 0;
-        return Some(Picture { texture, omega: question.omega, beta: question.beta, known });
+        return Some(Picture { texture, side: 1, omega: question.omega, beta: question.beta, known });
     }
     let chart = context.studies.motions.study()?;
     let question = chart.question();
@@ -145,22 +147,28 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
             colours::sequential(value(&cell, layer) / top)
         }
     };
-    let safety = Safety::of(context.view);
+    let safety = Safety::of(context.view, context.session);
     let unsafe_in = |cell: &Cell| match (&safety, cell.demand()) {
         (Some(safety), Some(demand)) => !safety.limits.allow(&demand, safety.gap),
         _ => false,
     };
     let paint = |column: usize, row: usize| {
-        let cell = chart.shown(column, row)?;
-        // Every other cell beyond a limit, so that what lies below stays legible.
-        let hatched = (column + row).is_multiple_of(2) && cell.as_ref().is_some_and(unsafe_in);
+        let cell = chart.shown(column / HATCH, row / HATCH)?;
+        let hatched = on_hatching(column, row) && cell.as_ref().is_some_and(unsafe_in);
         let colour = cell.map_or(tokens.inset, colour);
-        Some(if hatched { colour.lerp_to_gamma(tokens.danger, 0.8) } else { colour })
+        Some(if hatched { colour.lerp_to_gamma(tokens.danger, 0.9) } else { colour })
     };
     let limits = safety.as_ref().map_or(0, Safety::fingerprint);
     let revision = revision(chart.version(), context.studies.motions.generation()) ^ limits;
-    let texture = raster(ui, Id::unique("motion chart"), revision, question.size, paint)?;
-    Some(Picture { texture, omega: question.x.1, beta: question.y.1, known: chart.version() > 0 })
+    let (columns, rows) = question.size;
+    let texture = raster(ui, Id::unique("motion chart"), revision, (HATCH * columns, HATCH * rows), paint)?;
+    Some(Picture {
+        texture,
+        side: HATCH,
+        omega: question.x.1,
+        beta: question.y.1,
+        known: chart.version() > 0,
+    })
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
@@ -178,8 +186,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         .allow_double_click_reset(false)
         .show(ui, |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
-            if let Some(Picture { texture, omega, beta, known }) = &picture {
-                draw_raster(plot, texture, *omega, *beta, if *known { 1.0 } else { 0.5 });
+            if let Some(Picture { texture, side, omega, beta, known }) = &picture {
+                draw_cells(plot, texture, *side, *omega, *beta, if *known { 1.0 } else { 0.5 });
             }
             for tongue in &boundaries.tongues {
                 plot_style::series(plot, Series::Published, "published boundary", &tongue.published);

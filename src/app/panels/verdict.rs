@@ -70,7 +70,7 @@ fn broken(context: &Context<'_>, shown: &Shown) -> Vec<String> {
         tip: (summary.tip_min, summary.tip_max),
         slope: None,
     });
-    match (Safety::of(context.view), demand) {
+    match (Safety::of(context.view, context.session), demand) {
         (Some(safety), Some(demand)) => safety.broken(&demand),
         _ => Vec::new(),
     }

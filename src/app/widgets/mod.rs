@@ -24,7 +24,7 @@ pub use fold::Fold;
 pub use icon::{Icon, icon_button};
 pub use legend::{Series, legend_entry};
 pub use parameter_slider::{Mark, ParameterSlider, SliderResponse};
-pub use raster::{draw_raster, raster};
+pub use raster::{HATCH, draw_cells, draw_raster, on_hatching, raster};
 pub use swatch::{attractor_row, colour_bar, swatches};
 pub use tabs::{chips, tabs};
 pub use tile::{Tile, tiles};

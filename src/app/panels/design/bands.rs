@@ -72,15 +72,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(study) = context.studies.bench.harvest.study() else { return };
     let present = least(context.view, study);
     let small = |text: &str| RichText::new(text.to_owned()).small();
-    let mut microwatts = round_significant(1e6 * present, 6);
-    let slider = ParameterSlider::new("Enough is", "P", &mut microwatts, 0.0..=1e6)
-        .logarithmic_from(1e6 * LEAST)
-        .unit("µW")
-        .tooltip("Power from which a frequency counts as usable: half of the highest unless you choose it.")
-        .compact();
-    if slider.show(ui).changed {
-        context.redesign(|design| design.least = Some(1e-6 * microwatts));
-    }
+    least_slider(context, ui, present);
     if context.view.design.least.is_some() && ui.button(small("half of the highest")).clicked() {
         context.redesign(|design| design.least = None);
     }
@@ -123,6 +115,19 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     };
     ui.add_space(2.0);
     ui.add(egui::Label::new(small(&text).color(tokens.text)).wrap());
+}
+
+/// Chooses the power (W) that counts.
+pub(super) fn least_slider(context: &mut Context<'_>, ui: &mut Ui, present: f64) {
+    let mut microwatts = round_significant(1e6 * present, 6);
+    let slider = ParameterSlider::new("Enough is", "P", &mut microwatts, 0.0..=1e6)
+        .logarithmic_from(1e6 * LEAST)
+        .unit("µW")
+        .tooltip("Power from which a frequency counts as usable: half of the highest unless you choose it.")
+        .compact();
+    if slider.show(ui).changed {
+        context.redesign(|design| design.least = Some(1e-6 * microwatts));
+    }
 }
 
 fn hertz(width: f64) -> String {

@@ -182,7 +182,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
     let all = || curves.iter().flat_map(|(_, _, points)| points);
     let highest = all().map(|point| values(watched, point)[1].abs()).fold(0.0, f64::max);
     let measure = Measure::new(watched, view.design.logarithmic, highest);
-    let safety = Safety::of(view);
+    let safety = Safety::of(view, context.session);
     let place = |side: usize| {
         let measure = &measure;
         move |point: &HarvestPoint| {
@@ -202,6 +202,12 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
         }
     }
     let measured = super::measured::over_frequency(context, watched, &measure);
+    let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.harvest.as_ref());
+    for (kind, _, points) in kept.map_or_else(Vec::new, self::curves) {
+        if matches!(kind, Series::Stable | Series::Poincare) {
+            drawn.push((Series::Ghost, "pinned", measure.line(&points, 0)));
+        }
+    }
     let x = Axis::new("excitation frequency", "f").unit("Hz");
     let units = view.scenario.units();
     let (low, high) = study.question().window;

@@ -70,7 +70,7 @@ fn checks(context: &Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     let Some((Ok(operating), _)) = context.studies.bench.operating(&context.view.scenario) else { return };
     let Some(harvest) = &operating.reached.harvest else { return };
-    let Some(safety) = Safety::of(context.view) else { return };
+    let Some(safety) = Safety::of(context.view, context.session) else { return };
     ui.add_space(4.0);
     for check in safety.limits.checks(&harvest.demand, safety.gap) {
         let (sign, colour) = match check.standing {

@@ -96,7 +96,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
     let stable = best.iter().filter_map(|best| best.nonlinear.map(|[_, power]| at(best.resistance, power)));
     drawn.push((Series::Exact, "stable motions, best frequency", stable.collect()));
     drawn.push((Series::Up, "reached", reached.iter().map(place).collect()));
-    let safety = Safety::of(view);
+    let safety = Safety::of(view, context.session);
     let demand = |point: &LoadPoint| (point.v_peak, point.tip);
     drawn.push((Series::Beyond, "beyond a limit", beyond(safety.as_ref(), &reached, &demand, &place)));
     let own = Plant::new(&view.scenario).map_or(f64::NAN, |plant| plant.resistance());

@@ -8,7 +8,6 @@ use crate::app::panels::{Context, explore};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips};
-use crate::jobs::design::Plant;
 use crate::jobs::design::materials::{MaterialRow, with_ceramic};
 use crate::jobs::study::Study as _;
 use crate::model::Limits;
@@ -127,8 +126,7 @@ fn found(context: &Context<'_>, ui: &mut Ui, row: &MaterialRow) {
         voltage: context.view.design.limits.voltage.or(row.voltage_limit),
         ..context.view.design.limits
     };
-    let system = context.view.scenario.model.system(context.view.scenario.parameters);
-    let gap = system.as_ref().ok().and_then(Plant::gap);
+    let gap = context.session.boundaries.as_ref().and_then(|boundaries| boundaries.gap);
     let checks = limits.checks(&harvest.demand, gap);
     let colour = match safety::standing(&checks) {
         Standing::Within => tokens.ok,

@@ -3,12 +3,12 @@
 use egui_plot::{HLine, PlotPoint, PlotUi};
 
 use crate::app::bench;
+use crate::app::session::Session;
 use crate::app::theme;
 use crate::app::view::View;
 use crate::app::widgets::number::with_unit;
-use crate::jobs::design::Plant;
 use crate::model::limits::{Check, LimitKind, Standing};
-use crate::model::{Demand, Limits, ReducedSystem, Units};
+use crate::model::{Demand, Limits, Units};
 
 /// The limits with what they refer to.
 pub(in crate::app) struct Safety {
@@ -21,13 +21,9 @@ pub(in crate::app) struct Safety {
 
 impl Safety {
     /// Of the device in view, when it is one.
-    pub(in crate::app) fn of(view: &View) -> Option<Self> {
-        let system = view.scenario.model.system(view.scenario.parameters).ok()?;
-        Some(Self::of_system(view, &system))
-    }
-
-    fn of_system(view: &View, system: &ReducedSystem) -> Self {
-        Self { limits: bench::limits(view), gap: Plant::gap(system), units: view.scenario.units() }
+    pub(in crate::app) fn of(view: &View, session: &Session) -> Option<Self> {
+        let gap = session.boundaries.as_ref()?.gap;
+        Some(Self { limits: bench::limits(view), gap, units: view.scenario.units() })
     }
 
     /// Whether a motion keeps them: its largest voltage (V) and its range of the tip (mm).
@@ -109,15 +105,15 @@ pub(super) fn in_words(check: &Check) -> String {
     let percent = |value: f64| crate::app::widgets::number::significant(100.0 * value, 2);
     match check.kind {
         LimitKind::Voltage => {
-            format!("peak {} of {} allowed", with_unit(check.value, "V"), with_unit(check.limit, "V"))
+            format!("peak {} of {}", with_unit(check.value, "V"), with_unit(check.limit, "V"))
         }
         LimitKind::Gap => format!("tip closes {} % of the gap", percent(check.value)),
         LimitKind::Deflection => {
-            format!("deflection {} % of the length, {} % allowed", percent(check.value), percent(check.limit))
+            format!("tip at {} % of {} % of the length", percent(check.value), percent(check.limit))
         }
         LimitKind::Slope => {
             let digits = |value| crate::app::widgets::number::significant(value, 2);
-            format!("slope {} rad, {} allowed", digits(check.value), digits(check.limit))
+            format!("slope {} of {} rad", digits(check.value), digits(check.limit))
         }
         LimitKind::Sag => {
             format!("sags by {} % of its length under gravity", percent(check.value))

@@ -12,7 +12,9 @@ use crate::app::view::Panel;
 use crate::app::view::design::{Aim, Side};
 use crate::app::widgets::number::{round_significant, significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Card, ParameterSlider, chips, colour_bar, draw_raster, raster, swatches};
+use crate::app::widgets::{
+    Card, HATCH, ParameterSlider, chips, colour_bar, draw_cells, on_hatching, raster, swatches,
+};
 use crate::jobs::design::find::{Evaluation, Objective};
 use crate::jobs::study::Study as _;
 use crate::jobs::study::find::{Candidate, FindStudy};
@@ -104,15 +106,16 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
         let share =
             if inverted { (high - value) / (high - low).max(1e-300) } else { value / high.max(1e-300) };
         let colour = colours::sequential(share);
-        if hatched { colour.lerp_to_gamma(tokens.danger, 0.75) } else { colour }
+        if hatched { colour.lerp_to_gamma(tokens.danger, 0.9) } else { colour }
     };
     let paint = |column: usize, row: usize| {
-        let cell = map.shown((column, row))?;
-        Some(colour(cell, cell.violation > 0.0 && (column + row).is_multiple_of(2)))
+        let cell = map.shown((column / HATCH, row / HATCH))?;
+        Some(colour(cell, cell.violation > 0.0 && on_hatching(column, row)))
     };
     let generation = context.studies.bench.map.generation();
     let revision = map.version() ^ (generation << 32) ^ u64::from(tokens.dark) << 63;
-    let picture = raster(ui, Id::unique("design map"), revision, map.size(), paint);
+    let (columns, rows) = map.size();
+    let picture = raster(ui, Id::unique("design map"), revision, (HATCH * columns, HATCH * rows), paint);
     let variables = &map.question().variables;
     let sides = search.sides.map(|side| side.dimension);
     let factors = sides.map(|dimension| device::words(dimension).3);
@@ -132,7 +135,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
         .show(ui, |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
             if let Some(picture) = &picture {
-                draw_raster(plot, picture, x, y, if map.version() == 0 { 0.4 } else { 1.0 });
+                draw_cells(plot, picture, HATCH, x, y, if map.version() == 0 { 0.4 } else { 1.0 });
             }
             if let Some((at, evaluation)) = best {
                 let values = map.values(at);
@@ -264,6 +267,10 @@ fn search(context: &mut Context<'_>, ui: &mut Ui) {
             context.redesign(|design| design.search.generations = generations);
         }
     });
+    if context.view.design.search.aim == Aim::Band {
+        let least = context.view.design.least.unwrap_or(questions::LEAST);
+        super::bands::least_slider(context, ui, least);
+    }
     let found = context.studies.bench.found();
     let label = if found.is_some() { "Search again from here" } else { "Find the best within the limits" };
     if ui.button(label).clicked() {

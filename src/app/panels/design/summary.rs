@@ -103,7 +103,7 @@ fn parts(value: f64, unit: &str) -> (String, String) {
 }
 
 fn gap_in_words(context: &Context<'_>, harvest: &Harvest) -> String {
-    let gap = Safety::of(context.view).and_then(|safety| safety.gap);
+    let gap = Safety::of(context.view, context.session).and_then(|safety| safety.gap);
     gap.map_or("no magnets".to_owned(), |gap| {
         format!("closes {} % of the gap", significant((-100.0 * harvest.demand.tip.0 / gap).max(0.0), 2))
     })
@@ -112,7 +112,9 @@ fn gap_in_words(context: &Context<'_>, harvest: &Harvest) -> String {
 /// Whether the motion keeps the limits: a word, its colour, and the check that is nearest to failing.
 fn safe(context: &Context<'_>, ui: &Ui, harvest: &Harvest) -> (&'static str, egui::Color32, String) {
     let tokens = theme::tokens(ui);
-    let Some(safety) = Safety::of(context.view) else { return ("–", tokens.text_weak, String::new()) };
+    let Some(safety) = Safety::of(context.view, context.session) else {
+        return ("–", tokens.text_weak, String::new());
+    };
     let checks = safety.limits.checks(&harvest.demand, safety.gap);
     let detail = safety::worst(&checks).map(safety::in_words).unwrap_or_default();
     match safety::standing(&checks) {
@@ -150,6 +152,11 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
             losses += &format!(", in the dielectric {}", with_unit(harvest.dielectric, "W"));
         }
         facts.push(losses);
+    }
+    let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.operating.as_ref());
+    if let Some(kept) = kept.and_then(|kept| kept.reached.harvest.as_ref()) {
+        let (volts, watts) = (with_unit(kept.v_rms, "V"), with_unit(kept.power, "W"));
+        facts.push(format!("pinned: {volts}, {watts}"));
     }
     let mut remarks = Vec::new();
     if let Some(forced) = operating.forced.filter(|forced| !forced.stable) {
