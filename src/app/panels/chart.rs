@@ -67,6 +67,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             };
             ui.horizontal(|ui| {
                 colour_bar(ui, "0", &format!("{} {unit}", significant(top, 3)), colours::sequential);
+                swatches(ui, &[(tokens.danger, "hatched: beyond a limit")]);
             });
         }
     }

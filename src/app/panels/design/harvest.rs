@@ -226,8 +226,10 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
         }
         plot_style::points(plot, Series::Measured, "measured", &measured);
         match (&safety, watched) {
-            (Some(safety), Watched::Peak) => safety.voltage_lines(plot, &|volts| measure.coordinate(volts)),
-            (Some(safety), Watched::Tip) => safety.tip_lines(plot),
+            (Some(safety), Watched::Peak) => {
+                safety.voltage_lines(plot, low, &|volts| measure.coordinate(volts))
+            }
+            (Some(safety), Watched::Tip) => safety.tip_lines(plot, low),
             (_, Watched::Power) => super::bands::least_line(plot, view, study, &measure),
             _ => {}
         }

@@ -4,9 +4,9 @@ use egui_plot::{HLine, PlotPoint, PlotUi};
 
 use crate::app::bench;
 use crate::app::session::Session;
-use crate::app::theme;
 use crate::app::view::View;
 use crate::app::widgets::number::with_unit;
+use crate::app::{fonts, theme};
 use crate::model::limits::{Check, LimitKind, Standing};
 use crate::model::{Demand, Limits, Units};
 
@@ -54,31 +54,37 @@ impl Safety {
         (self.units.millimetres(-lowest), self.units.millimetres(most))
     }
 
-    /// Draws horizontal limits of a plot of voltages (V).
-    pub(super) fn voltage_lines(&self, plot: &mut PlotUi<'_>, coordinate: &dyn Fn(f64) -> f64) {
+    /// Draws horizontal limits of a plot of voltages (V), with their names from x = `left`.
+    pub(super) fn voltage_lines(&self, plot: &mut PlotUi<'_>, left: f64, coordinate: &dyn Fn(f64) -> f64) {
         if let Some((low, high)) = self.limits.voltage {
-            line(plot, coordinate(low), "largest voltage allowed");
+            line(plot, [left, coordinate(low)], "largest voltage allowed");
             if high > low {
-                line(plot, coordinate(high), "upper end of the range published");
+                line(plot, [left, coordinate(high)], "upper end of the range published");
             }
         }
     }
 
     /// Draws those of a plot of tip displacements (mm).
-    pub(super) fn tip_lines(&self, plot: &mut PlotUi<'_>) {
+    pub(super) fn tip_lines(&self, plot: &mut PlotUi<'_>, left: f64) {
         let (low, high) = self.tip();
         let closes = self.gap.is_some_and(|gap| self.limits.gap * gap < self.limits.deflection);
         let contact =
             if self.limits.gap >= 1.0 { "contact of the magnets" } else { "part of the gap allowed" };
-        line(plot, low, if closes { contact } else { "largest deflection allowed" });
-        line(plot, high, "largest deflection allowed");
+        line(plot, [left, low], if closes { contact } else { "largest deflection allowed" });
+        line(plot, [left, high], "largest deflection allowed");
     }
 }
 
-fn line(plot: &mut PlotUi<'_>, at: f64, name: &str) {
+fn line(plot: &mut PlotUi<'_>, [left, at]: [f64; 2], name: &str) {
     let colour = theme::tokens_in(plot.ctx()).danger;
     if at.is_finite() {
         plot.hline(HLine::new(name, at).color(colour).width(1.6));
+        let font = fonts::regular(theme::size::SMALL);
+        let text = egui::RichText::new(format!(" {name}")).font(font).color(colour);
+        let text = egui_plot::Text::new("", PlotPoint::new(left, at), text)
+            .color(colour)
+            .anchor(egui::Align2::LEFT_BOTTOM);
+        plot.text(text.allow_hover(false));
     }
 }
 
@@ -105,15 +111,18 @@ pub(super) fn in_words(check: &Check) -> String {
     let percent = |value: f64| crate::app::widgets::number::significant(100.0 * value, 2);
     match check.kind {
         LimitKind::Voltage => {
-            format!("peak {} of {}", with_unit(check.value, "V"), with_unit(check.limit, "V"))
+            format!("peak {}, limit {}", with_unit(check.value, "V"), with_unit(check.limit, "V"))
+        }
+        LimitKind::Gap if check.limit < 1.0 => {
+            format!("gap closed {} %, limit {} %", percent(check.value), percent(check.limit))
         }
         LimitKind::Gap => format!("tip closes {} % of the gap", percent(check.value)),
         LimitKind::Deflection => {
-            format!("tip at {} % of {} % of the length", percent(check.value), percent(check.limit))
+            format!("deflection {} %, limit {} % of L", percent(check.value), percent(check.limit))
         }
         LimitKind::Slope => {
             let digits = |value| crate::app::widgets::number::significant(value, 2);
-            format!("slope {} of {} rad", digits(check.value), digits(check.limit))
+            format!("slope {}, limit {} rad", digits(check.value), digits(check.limit))
         }
         LimitKind::Sag => {
             format!("sags by {} % of its length under gravity", percent(check.value))

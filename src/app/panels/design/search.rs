@@ -72,12 +72,11 @@ fn header(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
             context.redesign(|design| design.search.aim = aim);
         }
     });
-    ui.horizontal_wrapped(|ui| {
+    ui.horizontal(|ui| {
         let (from, to) = if aim == Aim::Threshold { (high, low) } else { (0.0, high) };
         colour_bar(ui, &in_digits(from, aim), &in_digits(to, aim), colours::sequential);
-        ui.add_space(10.0);
-        swatches(ui, &[(tokens.danger, "hatched: beyond a limit"), (tokens.track, "no motion, no device")]);
     });
+    swatches(ui, &[(tokens.danger, "hatched: beyond a limit"), (tokens.track, "no motion, no device")]);
 }
 
 /// Lowest and highest value known.
