@@ -37,9 +37,15 @@ raised="U+1D62,U+2070,U+2071,U+2074-208E,U+2091,U+2096,U+2099"
 marks="U+2010-2015,U+2018-201A,U+201C-201E,U+2020,U+2022,U+2026,U+2030,U+2032,U+2033,U+2044,U+20AC,U+2126"
 signs="U+2190-2194,U+2202,U+2206,U+2211,U+2212,U+221A,U+221E,U+222B,U+2248,U+2260,U+2264,U+2265,U+2295"
 shapes="U+25A0,U+25B2,U+25BC,U+25B6,U+25C0,U+25C6,U+25CB,U+25CF,U+2713"
+all="$letters,$raised,$marks,$signs,$shapes"
+# Titles and selected things; whatever else stands there is taken from the normal weight.
+titles="U+0020-007E,U+00B0,U+00B2,U+00B7,U+00C4,U+00D6,U+00D7,U+00DC,U+00DF,U+00E4,U+00E9,U+00F6,U+00FC"
+titles="$titles,U+03B1,U+03B2,U+03B7,U+03B8,U+03BA,U+03C9,U+2013,U+2014,U+2019,U+2026,U+2212,U+2080-2082"
 for weight in 400Regular 600SemiBold; do
+    unicodes="$all"
+    [ $weight = 400Regular ] || unicodes="$titles"
     freeze "package/$weight/Inter_$weight.ttf" "$weight.ttf"
-    pyftsubset "$weight.ttf" --unicodes="$letters,$raised,$marks,$signs,$shapes" \
+    pyftsubset "$weight.ttf" --unicodes="$unicodes" \
         --layout-features='kern,mark,mkmk,ccmp' --no-hinting --desubroutinize --notdef-outline \
         --name-IDs='0,1,2,5,13,14' --drop-tables+=DSIG,STAT,MVAR,HVAR \
         --output-file="$here/Inter-${weight#[0-9][0-9][0-9]}-subset.ttf"

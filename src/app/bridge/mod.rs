@@ -11,12 +11,14 @@ mod shell;
 mod storage;
 pub mod workers;
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
+use std::time::Duration;
 
 use wasm_bindgen::JsCast as _;
 
 use super::App;
+use super::clock::milliseconds;
 use super::crew::{Crew, Inline, Workers};
 use frames::{Probe, Recorder};
 
@@ -76,15 +78,21 @@ pub(super) fn read_dropped(file: egui::DroppedFileHandle) {
     });
 }
 
-/// Time between pictures of work that goes on.
-const BETWEEN_PICTURES: std::time::Duration = std::time::Duration::from_millis(100);
+/// Milliseconds between pictures of work that goes on.
+const BETWEEN_PICTURES: f64 = 100.0;
 
 /// A crew of web workers, or of this thread where there can be none.
 fn crew(context: egui::Context) -> Rc<RefCell<Crew>> {
+    // When the newest picture asked for is due.
+    let picture = Cell::new(f64::NEG_INFINITY);
     let taken: workers::Taken = Rc::new(move |crew| {
         exports::settle(&mut crew.borrow_mut());
-        // Findings come faster than they need to be drawn.
-        context.request_repaint_after(BETWEEN_PICTURES);
+        // Findings come faster than they need to be drawn: the first at once, the others in company.
+        let now = milliseconds();
+        if now >= picture.get() {
+            picture.set(now.max(picture.get() + BETWEEN_PICTURES));
+            context.request_repaint_after(Duration::from_secs_f64(1e-3 * (picture.get() - now)));
+        }
     });
     Rc::new_cyclic(|crew: &Weak<RefCell<Crew>>| {
         let hired = workers::WebWorkers::hire(crew.clone(), taken);

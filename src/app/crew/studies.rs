@@ -86,28 +86,33 @@ impl Studies {
     /// How many of the lanes are urgent: they are served also while the user's hand moves.
     pub(super) const URGENT: usize = 4;
 
-    /// All lanes, most urgent first.
-    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; LANES] {
+    /// All lanes with their names, most urgent first.
+    fn named_lanes(&mut self) -> [(&'static str, &mut dyn Traffic); LANES] {
         let bench = &mut self.bench;
         [
-            &mut self.answers,
-            &mut bench.operating,
-            &mut self.tongues,
-            &mut self.inspection,
-            &mut self.multipliers,
-            &mut self.response,
-            &mut self.sweep,
-            &mut self.curves,
-            &mut self.motions,
-            &mut self.basin,
-            &mut bench.harvest,
-            &mut bench.load,
-            &mut bench.best,
-            &mut bench.materials,
-            &mut bench.trust,
-            &mut bench.find,
-            &mut bench.map,
+            ("answers", &mut self.answers),
+            ("operating", &mut bench.operating),
+            ("tongues", &mut self.tongues),
+            ("verdict", &mut self.inspection),
+            ("multipliers", &mut self.multipliers),
+            ("response", &mut self.response),
+            ("sweep", &mut self.sweep),
+            ("curves", &mut self.curves),
+            ("motions", &mut self.motions),
+            ("basin", &mut self.basin),
+            ("harvest", &mut bench.harvest),
+            ("load", &mut bench.load),
+            ("best frequencies", &mut bench.best),
+            ("materials", &mut bench.materials),
+            ("trust", &mut bench.trust),
+            ("find", &mut bench.find),
+            ("map", &mut bench.map),
         ]
+    }
+
+    /// All lanes, most urgent first.
+    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; LANES] {
+        self.named_lanes().map(|(_, lane)| lane)
     }
 
     /// Whether anything is under way or waits to be, besides requests from outside.
@@ -125,26 +130,8 @@ impl Studies {
 
     /// Names and done parts, 0 to 1, of what is under way.
     pub(in crate::app) fn progress(&mut self) -> Vec<(&'static str, f64)> {
-        const NAMES: [&str; LANES] = [
-            "answers",
-            "operating",
-            "tongues",
-            "verdict",
-            "multipliers",
-            "response",
-            "sweep",
-            "curves",
-            "motions",
-            "basin",
-            "harvest",
-            "load",
-            "best frequencies",
-            "materials",
-            "trust",
-            "find",
-            "map",
-        ];
-        NAMES.iter().zip(self.lanes()).filter_map(|(name, lane)| Some((*name, lane.progress()?))).collect()
+        let lanes = self.named_lanes();
+        lanes.into_iter().filter_map(|(name, lane)| Some((name, lane.progress()?))).collect()
     }
 
     /// Asks for what the view shows.

@@ -1,6 +1,7 @@
 //! The bar above the plots that says in words what they show.
 
-use egui::{RichText, Ui};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Align, RichText, Ui};
 
 use super::Context;
 use super::design::safety::Safety;
@@ -9,6 +10,9 @@ use crate::app::session::{Shown, Status};
 use crate::app::{fonts, theme};
 use crate::dynamics::Outcome;
 use crate::model::Demand;
+
+/// Between texts of a line.
+pub(super) const SEPARATOR: &str = "  ·  ";
 
 /// Draws the bar.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -38,21 +42,19 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             ui.label(RichText::new(text).color(tokens.danger));
             return;
         }
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 10.0;
-            ui.label(
-                RichText::new(&reading.headline).font(fonts::semibold(theme::size::HEADING)).color(colour),
-            );
-            separated(ui, &reading.facts, &|text| RichText::new(text).color(tokens.text));
-            for text in broken {
-                ui.label(RichText::new(format!("beyond a limit: {text}")).color(tokens.danger));
-            }
-        });
+        ui.spacing_mut().item_spacing.y = 6.0;
+        let format =
+            |font, color| TextFormat { font_id: font, color, valign: Align::Center, ..Default::default() };
+        let mut line = LayoutJob::default();
+        line.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
+        let facts = format(fonts::regular(theme::size::BODY), tokens.text);
+        line.append(&reading.facts.join(SEPARATOR), 12.0, facts);
+        let broken: String = broken.iter().map(|text| format!("{SEPARATOR}beyond a limit: {text}")).collect();
+        line.append(&broken, 0.0, format(fonts::regular(theme::size::BODY), tokens.danger));
+        ui.label(line);
         if !reading.remarks.is_empty() {
-            ui.horizontal_wrapped(|ui| {
-                ui.spacing_mut().item_spacing.x = 8.0;
-                separated(ui, &reading.remarks, &|text| RichText::new(text).small().color(tokens.text_weak));
-            });
+            let remarks = reading.remarks.join(SEPARATOR);
+            ui.label(RichText::new(remarks).small().color(tokens.text_weak));
         }
     });
     let rect = drawn.response.rect;
@@ -73,15 +75,5 @@ fn broken(context: &Context<'_>, shown: &Shown) -> Vec<String> {
     match (Safety::of(context.view, context.session), demand) {
         (Some(safety), Some(demand)) => safety.broken(&demand),
         _ => Vec::new(),
-    }
-}
-
-/// Texts with a middle dot between them.
-pub(super) fn separated(ui: &mut Ui, texts: &[String], style: &dyn Fn(String) -> RichText) {
-    for (i, text) in texts.iter().enumerate() {
-        if i > 0 {
-            ui.label(style("·".to_owned()));
-        }
-        ui.label(style(text.clone()));
     }
 }

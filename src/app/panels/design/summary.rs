@@ -4,7 +4,8 @@ use egui::{RichText, Ui};
 
 use super::safety::{self, Safety};
 use crate::app::bench;
-use crate::app::panels::{Context, verdict};
+use crate::app::panels::Context;
+use crate::app::panels::verdict::SEPARATOR;
 use crate::app::theme;
 use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::{Card, Tile, tiles};
@@ -173,15 +174,9 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
         }
     }
     ui.add_space(4.0);
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 8.0;
-        verdict::separated(ui, &facts, &|text| RichText::new(text).color(tokens.text));
-    });
+    ui.label(RichText::new(facts.join(SEPARATOR)).color(tokens.text));
     if !remarks.is_empty() {
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 8.0;
-            verdict::separated(ui, &remarks, &|text| RichText::new(text).small().color(tokens.warning));
-        });
+        ui.label(RichText::new(remarks.join(SEPARATOR)).small().color(tokens.warning));
     }
 }
 
