@@ -60,7 +60,7 @@ fn over_time(context: &Context<'_>, ui: &mut Ui, file: &File) {
         plot_style::series(plot, Series::Numeric, "computed", &curve);
         let colour = theme::tokens_in(plot.ctx()).theory;
         let points = egui_plot::PlotPoints::Borrowed(&file.drawn);
-        plot.line(egui_plot::Line::new("measured", points).color(colour).width(1.2));
+        plot.line(egui_plot::Line::new("measured", points).color(colour).width(1.2).allow_band(false));
     });
 }
 
