@@ -1,5 +1,7 @@
 //! What panels ask for. They draw from shared references and push commands; one place carries them out.
 
+use super::bench::measured::Reading;
+use super::view::design::DesignView;
 use super::view::{Layer, MapWindow, Panel, SweepView, Tab};
 use crate::model::Parameter;
 use crate::scenario::Scenario;
@@ -19,6 +21,16 @@ pub(super) enum Command {
     Sweep(SweepView),
     /// Trace curves in another plane.
     OpenPlane([Parameter; 2]),
+    /// Show something else of the Design tab.
+    Design(Box<DesignView>),
+    /// Take a changed device over, or say why it is none.
+    Adopt(Result<Box<Scenario>, String>),
+    /// Begin the search for a design, or end it.
+    Find(bool),
+    /// Let the user choose a file of measured data.
+    OpenFile,
+    /// Read the file's columns so, or close it.
+    Measure(Option<Reading>),
     /// Load a figure of the paper.
     LoadFigure(u8),
     /// Fill the page with a panel, or show all of them again.

@@ -3,6 +3,7 @@
 use egui_plot::PlotPoint;
 
 use super::view::MapWindow;
+use crate::jobs::design::Plant;
 use crate::model::ReducedSystem;
 use crate::scenario::{ModelChoice, Scenario};
 use crate::theory::{CoupledModes, Published, Resonance};
@@ -71,6 +72,8 @@ pub(super) struct Boundaries {
     pub published: Option<Published>,
     /// The coupled-mode theory, to ask about one point.
     pub coupled: Option<CoupledModes>,
+    /// Distance of the magnets at rest (beam lengths); none without magnets.
+    pub gap: Option<f64>,
 }
 
 impl Boundaries {
@@ -82,7 +85,7 @@ impl Boundaries {
             Resonance::ALL.map(|resonance| Tongue::new(resonance, REACH, published, coupled.as_ref())).into()
         });
         let frequencies = system.modes.iter().map(|mode| mode.omega).collect();
-        Self { structure, frequencies, tongues, published, coupled }
+        Self { structure, frequencies, tongues, published, coupled, gap: Plant::gap(system) }
     }
 
     /// The tongue about a resonance.

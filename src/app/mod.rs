@@ -10,6 +10,7 @@ pub mod theme;
 pub mod view;
 pub mod widgets;
 
+mod bench;
 mod caption;
 mod clock;
 mod colours;
@@ -30,14 +31,16 @@ use std::rc::Rc;
 
 use egui::{Margin, Ui};
 
+use bench::Bench;
 use command::{Command, Commands};
 use crew::Crew;
 use panels::Context;
 use session::{Session, Status};
 use view::{MapWindow, Tab, View};
 
-/// Width of the left column, and page width below which the columns are stacked.
+/// Width of the left column, of that with units beside the numbers, and page width below which the columns are stacked.
 const COLUMN: f32 = 296.0;
+const WIDE_COLUMN: f32 = 336.0;
 const STACKED: f32 = 760.0;
 
 /// The application.
@@ -45,6 +48,7 @@ pub struct App {
     view: View,
     session: Session,
     crew: Rc<RefCell<Crew>>,
+    bench: Bench,
     notice: Option<String>,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool)>,
@@ -57,7 +61,8 @@ impl App {
         let (view, notice) = View::restore(stored);
         let mut session = Session::default();
         session.ask(&view.scenario);
-        let mut app = Self { view, session, crew, notice, styled: None };
+        let bench = Bench::default();
+        let mut app = Self { view, session, crew, bench, notice, styled: None };
         app.style(context);
         app
     }
@@ -66,6 +71,9 @@ impl App {
     pub fn logic(&mut self, context: &egui::Context) {
         self.session.work();
         self.study(context);
+        if self.bench.measured.work() {
+            context.request_repaint();
+        }
         if self.view.tab == Tab::Paper {
             let figure = figures::figure(self.view.figure);
             if self.session.compare(figure, &self.view.scenario) {
@@ -94,15 +102,41 @@ impl App {
         crew.hand_out();
     }
 
+    /// Takes a file of measured data, and brings the page that shows it to the front.
+    pub fn import(&mut self, name: &str, text: Vec<u8>) {
+        self.view.tab = Tab::Design;
+        self.view.design.page = view::design::Page::Measured;
+        self.view.enlarged = None;
+        self.bench.measured.open(name, text);
+    }
+
+    /// Takes what was dropped on the page.
+    fn take_dropped(&mut self, ui: &Ui) {
+        let Some(file) = ui.input(|input| input.raw.dropped_files.first().cloned()) else { return };
+        #[cfg(target_arch = "wasm32")]
+        bridge::read_dropped(file);
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            let name =
+                file.path().file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+            match file.bytes() {
+                Ok(text) => self.import(&name, text),
+                Err(reason) => self.notice = Some(format!("{name} cannot be read: {reason}")),
+            }
+        }
+    }
+
     /// Draws one frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
+        self.take_dropped(ui);
         let mut commands = Commands::new();
         let crew = self.crew.borrow();
         let mut context = Context {
             view: &self.view,
             session: &self.session,
             studies: &crew.studies,
+            bench: &self.bench,
             commands: &mut commands,
         };
         draw(&mut context, self.notice.as_deref(), ui);
@@ -128,9 +162,27 @@ impl App {
             Command::Chart(layer) => self.view.layer = layer,
             Command::Sweep(sweep) => self.view.sweep = sweep,
             Command::OpenPlane(plane) => self.view.plane = plane,
+            Command::Design(design) => self.view.design = *design,
+            Command::Adopt(Ok(scenario)) => self.show(*scenario),
+            Command::Adopt(Err(reason)) => self.bench.refusal = Some(reason),
+            Command::Find(begin) => {
+                let question = begin.then(|| bench::questions::find(&self.view, &self.session));
+                let begun = self.crew.borrow_mut().studies.bench.search(question, &self.view);
+                self.bench.refusal = begun.err();
+            }
+            Command::OpenFile => {
+                #[cfg(target_arch = "wasm32")]
+                bridge::choose_file();
+            }
+            Command::Measure(Some(reading)) => self.bench.measured.read(reading),
+            Command::Measure(None) => self.bench.measured = bench::measured::Measured::default(),
             Command::LoadFigure(number) => self.load_figure(number),
             Command::Enlarge(panel) => self.view.enlarged = panel,
-            Command::Pin(keep) => self.session.pin(keep),
+            Command::Pin(keep) => {
+                self.session.pin(keep);
+                let crew = self.crew.borrow();
+                self.bench.pinned = keep.then(|| crew.studies.bench.pinned(&self.view.scenario));
+            }
             Command::SetDark(dark) => self.view.dark = Some(dark),
             Command::SetProjector(large) => self.view.projector = large,
             Command::MoveBeam(moves) => self.view.beam_moves = moves,
@@ -139,6 +191,7 @@ impl App {
     }
 
     fn show(&mut self, scenario: crate::scenario::Scenario) {
+        self.bench.refusal = None;
         self.session.ask(&scenario);
         if let Some(boundaries) = &self.session.boundaries {
             self.view.map = boundaries.follow(self.view.map, scenario.parameters.omega);
@@ -224,11 +277,11 @@ fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
         let page = page.inner_margin(Margin { left: 12, right: 0, top: 10, bottom: 10 });
         egui::CentralPanel::default().frame(page).show(ui, |ui| {
             scrolled(ui, |ui| {
-                panels::controls::main_controls(context, ui);
+                panels::controls::above(context, ui);
                 ui.add_space(8.0);
                 draw_tab(context, ui);
                 ui.add_space(8.0);
-                panels::controls::rest(context, ui);
+                panels::controls::below(context, ui);
             });
         });
         return;
@@ -239,7 +292,7 @@ fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
         .frame(column)
         .show_separator_line(false)
         .resizable(false)
-        .exact_size(COLUMN)
+        .exact_size(if context.view.tab == Tab::Design { WIDE_COLUMN } else { COLUMN })
         .show(ui, |ui| {
             scrolled(ui, |ui| panels::controls::show(context, ui));
         });
@@ -260,6 +313,7 @@ fn draw_tab(context: &mut Context<'_>, ui: &mut Ui) {
         Tab::Explore => panels::explore::show(context, ui),
         Tab::Stability => panels::stability::show(context, ui),
         Tab::Sweep => panels::sweep::show(context, ui),
+        Tab::Design => panels::design::show(context, ui),
         Tab::Paper => panels::paper::show(context, ui),
     }
 }

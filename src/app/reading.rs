@@ -2,11 +2,10 @@
 
 use super::map::Boundaries;
 use super::session::Shown;
-use super::widgets::number::significant;
+use super::widgets::number::{significant, with_unit};
 use crate::dynamics::motion::Motion;
 use crate::dynamics::verdict::{ForcedSummary, Verdict, Warning, force_law_warning};
 use crate::dynamics::{Instability, Outcome};
-use crate::model::Device;
 use crate::theory::Resonance;
 
 /// How the headline is coloured.
@@ -114,8 +113,9 @@ fn measured(shown: &Shown, verdict: Option<&Verdict>) -> Vec<String> {
     let lowest = verdict.and_then(|verdict| verdict.tip_over_gap).map(|(low, _)| low);
     let lowest = lowest.unwrap_or(summary.tip_min / system.equilibrium.gap);
     let mut facts = vec![format!("{} V rms", significant(v_rms, 3))];
-    if let Some(resistance) = Device::default().resistance_of(system.parameters.kappa) {
-        facts.push(format!("{} µW", significant(1e6 * v_rms.powi(2) / resistance, 3)));
+    let kappa = system.parameters.kappa;
+    if kappa > 0.0 {
+        facts.push(with_unit(shown.scenario.units().watts(kappa * v_rms * v_rms), "W"));
     }
     facts.push(format!("tip closes {} % of the gap", significant((-100.0 * lowest).max(0.0), 2)));
     facts

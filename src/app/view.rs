@@ -1,8 +1,11 @@
 //! What the user chose: the scenario and how it is looked at. This is what the page remembers.
 
+pub mod design;
+
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use self::design::DesignView;
 use super::figures::{self, Figure};
 use crate::dynamics::sweep::Dwell;
 use crate::model::Parameter;
@@ -20,6 +23,8 @@ pub enum Tab {
     Stability,
     /// Orbit diagrams and response curves.
     Sweep,
+    /// A device in SI units: watts, load, limits.
+    Design,
     /// The paper's figures and tables.
     Paper,
 }
@@ -103,6 +108,14 @@ pub enum Panel {
     Evidence,
     /// Basins of attraction.
     Basins,
+    /// What the device delivers over frequency.
+    Harvest,
+    /// Power against the load.
+    Load,
+    /// Map over two dimensions of the device.
+    DesignMap,
+    /// Measured data.
+    Measured,
 }
 
 /// What is swept, and how.
@@ -167,6 +180,8 @@ pub struct View {
     pub sweep: SweepView,
     /// The two parameters of the plane of bifurcation curves.
     pub plane: [Parameter; 2],
+    /// The Design tab.
+    pub design: DesignView,
 }
 
 impl Default for View {
@@ -184,6 +199,7 @@ impl Default for View {
             layer: Layer::default(),
             sweep: SweepView::default(),
             plane: [Parameter::Omega, Parameter::Beta],
+            design: DesignView::default(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The built page in a real Chromium. `make test` builds the page and runs these; plain `cargo test` skips them.
 
 mod agreement;
+mod design;
 mod driver;
 mod page;
 mod server;

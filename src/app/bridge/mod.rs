@@ -63,6 +63,21 @@ pub fn start() {
     });
 }
 
+/// Lets the user choose a file; it comes back through [`exports::import`].
+pub(super) fn choose_file() {
+    shell::open();
+}
+
+/// Reads a file that was dropped on the page.
+pub(super) fn read_dropped(file: egui::DroppedFileHandle) {
+    wasm_bindgen_futures::spawn_local(async move {
+        if let Ok(text) = file.bytes_async().await {
+            // Without a running app there is nothing to show it in.
+            let _ = exports::import(&file.path().to_string_lossy(), text);
+        }
+    });
+}
+
 /// Milliseconds between pictures of work that goes on.
 const BETWEEN_PICTURES: f64 = 100.0;
 

@@ -3,6 +3,7 @@
 //! [`Crew`] brings the studies' pieces to whatever [`Workers`] there are: web workers in the browser (`bridge`), or the
 //! caller's own thread in tests. Findings are taken in as they come, also while the page is hidden.
 
+mod bench;
 mod inline;
 mod studies;
 

@@ -1,5 +1,6 @@
 //! What is being studied for the page: one lane a topic, the newest question of each.
 
+use super::bench::BenchStudies;
 use crate::app::map::{self, Structure};
 use crate::app::questions;
 use crate::app::session::Session;
@@ -25,6 +26,9 @@ const TONGUE_SPAN: f64 = 0.8;
 /// Upper ends of that window: the lowest one above what the map shows is taken.
 const TONGUE_LIMITS: [f64; 2] = [0.04, 0.2];
 
+/// How many lanes there are.
+const LANES: usize = 17;
+
 /// The lanes.
 pub(in crate::app) struct Studies {
     /// Requests from outside.
@@ -45,6 +49,8 @@ pub(in crate::app) struct Studies {
     pub motions: Lane<MotionChart>,
     /// Basins of attraction.
     pub basin: Lane<Basin>,
+    /// The design bench.
+    pub bench: BenchStudies,
 }
 
 /// Response curves to draw.
@@ -71,18 +77,21 @@ impl Default for Studies {
             multipliers: Lane::default(),
             motions: Lane::default(),
             basin: Lane::default(),
+            bench: BenchStudies::default(),
         }
     }
 }
 
 impl Studies {
     /// How many of the lanes are urgent: they are served also while the user's hand moves.
-    pub(super) const URGENT: usize = 3;
+    pub(super) const URGENT: usize = 4;
 
     /// All lanes with their names, most urgent first.
-    fn named_lanes(&mut self) -> [(&'static str, &mut dyn Traffic); 9] {
+    fn named_lanes(&mut self) -> [(&'static str, &mut dyn Traffic); LANES] {
+        let bench = &mut self.bench;
         [
             ("answers", &mut self.answers),
+            ("operating", &mut bench.operating),
             ("tongues", &mut self.tongues),
             ("verdict", &mut self.inspection),
             ("multipliers", &mut self.multipliers),
@@ -91,19 +100,23 @@ impl Studies {
             ("curves", &mut self.curves),
             ("motions", &mut self.motions),
             ("basin", &mut self.basin),
+            ("harvest", &mut bench.harvest),
+            ("load", &mut bench.load),
+            ("best frequencies", &mut bench.best),
+            ("materials", &mut bench.materials),
+            ("trust", &mut bench.trust),
+            ("find", &mut bench.find),
+            ("map", &mut bench.map),
         ]
     }
 
     /// All lanes, most urgent first.
-    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; 9] {
+    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; LANES] {
         self.named_lanes().map(|(_, lane)| lane)
     }
 
     /// Whether anything is under way or waits to be, besides requests from outside.
     pub(in crate::app) fn is_busy(&self) -> bool {
-        fn open<S: Study>(lane: &Lane<S>) -> bool {
-            lane.study().is_some_and(|study| !study.finished())
-        }
         open(&self.tongues)
             || open(&self.inspection)
             || open(&self.multipliers)
@@ -112,6 +125,7 @@ impl Studies {
             || open(&self.curves)
             || open(&self.motions)
             || open(&self.basin)
+            || self.bench.is_busy()
     }
 
     /// Names and done parts, 0 to 1, of what is under way.
@@ -123,6 +137,10 @@ impl Studies {
     /// Asks for what the view shows.
     pub(in crate::app) fn follow(&mut self, view: &View, session: &Session) {
         let ceiling = map::ceiling(view.map, view.scenario.parameters.beta);
+        if view.tab == Tab::Design {
+            self.bench.follow(view, session);
+            return;
+        }
         offer(&mut self.inspection, Work::Inspect { scenario: view.scenario.clone() });
         if view.scenario.model.modes > 1 {
             self.ask_tongues(&view.scenario, ceiling);
@@ -207,8 +225,13 @@ impl Studies {
     }
 }
 
+/// Whether a lane's study goes on.
+pub(super) fn open<S: Study>(lane: &Lane<S>) -> bool {
+    lane.study().is_some_and(|study| !study.finished())
+}
+
 /// Asks for a piece of work, unless it was asked for last.
-fn offer(lane: &mut Lane<Single>, work: Work) {
+pub(super) fn offer(lane: &mut Lane<Single>, work: Work) {
     if lane.wanted().is_none_or(|wanted| *wanted.work() != work) {
         lane.offer(Single::new(work));
     }

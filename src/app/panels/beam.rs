@@ -8,7 +8,6 @@ use crate::app::command::Command;
 use crate::app::curves;
 use crate::app::widgets::{BeamView, Card, Icon};
 use crate::dynamics::Outcome;
-use crate::model::Device;
 
 /// Seconds an excitation period takes on the screen.
 const SECONDS_PER_PERIOD: f64 = 1.6;
@@ -20,7 +19,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let (run, curves) = (&shown.run, &shown.curves);
     let moves = context.view.beam_moves && run.outcome() == Outcome::Completed;
     let period = run.system.parameters.period();
-    let slower = SECONDS_PER_PERIOD / (period * Device::default().time_unit());
+    let slower = SECONDS_PER_PERIOD / (period * shown.scenario.units().time);
     let [from, to] = curves.repeat;
     let clock = if context.view.beam_moves { ui.input(|input| input.time) } else { 0.0 };
     let time = match run.outcome() {

@@ -4,6 +4,7 @@ use egui::{Color32, Id, TextureHandle, Ui};
 use egui_plot::PlotBounds;
 
 use super::Context;
+use super::design::safety::Safety;
 use super::stability_map::{self, drag_point};
 use crate::app::command::Command;
 use crate::app::map::{Boundaries, ceiling};
@@ -11,7 +12,7 @@ use crate::app::theme::{self, Tokens};
 use crate::app::view::{Layer, Panel};
 use crate::app::widgets::number::significant;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips, colour_bar, draw_raster, raster, swatches};
+use crate::app::widgets::{HATCH, Series, chips, colour_bar, draw_cells, on_hatching, raster, swatches};
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
 use crate::dynamics::motion::{Cell, Motion};
@@ -59,10 +60,14 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         Layer::Motion => motion_legend(ui, tokens),
         layer @ (Layer::Voltage | Layer::Power) => {
             let top = context.studies.motions.study().map_or(0.0, |chart| highest(chart, layer));
-            let (top, unit) =
-                if layer == Layer::Voltage { (top, "V rms") } else { (microwatts() * top, "µW") };
+            let (top, unit) = if layer == Layer::Voltage {
+                (top, "V rms")
+            } else {
+                (microwatts(&context.view.scenario) * top, "µW")
+            };
             ui.horizontal(|ui| {
                 colour_bar(ui, "0", &format!("{} {unit}", significant(top, 3)), colours::sequential);
+                swatches(ui, &[(tokens.danger, "hatched: beyond a limit")]);
             });
         }
     }
@@ -89,6 +94,7 @@ fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
         (colour(Motion::Quasiperiodic), "torus"),
         (colour(Motion::Chaotic), "chaotic"),
         (colour(Motion::Escape { time: 0.0 }), "escape or contact"),
+        (tokens.danger, "hatched: beyond a limit"),
     ];
     swatches(ui, &entries);
 }
@@ -108,6 +114,8 @@ fn value(cell: &Cell, layer: Layer) -> f64 {
 /// What is drawn under the curves.
 struct Picture {
     texture: TextureHandle,
+    /// Pixels a side of a cell.
+    side: usize,
     omega: (f64, f64),
     beta: (f64, f64),
     /// Whether any of it answers the newest question.
@@ -127,7 +135,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
         let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
         let texture = raster(ui, Id::unique("multiplier chart"), revision, question.size, paint)?;
         let known = chart.version() > 0;
-        return Some(Picture { texture, omega: question.omega, beta: question.beta, known });
+        return Some(Picture { texture, side: 1, omega: question.omega, beta: question.beta, known });
     }
     let chart = context.studies.motions.study()?;
     let question = chart.question();
@@ -140,10 +148,28 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
             colours::sequential(value(&cell, layer) / top)
         }
     };
-    let paint = |column, row| chart.shown(column, row).map(|cell| cell.map_or(tokens.inset, colour));
-    let revision = revision(chart.version(), context.studies.motions.generation());
-    let texture = raster(ui, Id::unique("motion chart"), revision, question.size, paint)?;
-    Some(Picture { texture, omega: question.x.1, beta: question.y.1, known: chart.version() > 0 })
+    let safety = Safety::of(context.view, context.session);
+    let unsafe_in = |cell: &Cell| match (&safety, cell.demand()) {
+        (Some(safety), Some(demand)) => !safety.limits.allow(&demand, safety.gap),
+        _ => false,
+    };
+    let paint = |column: usize, row: usize| {
+        let cell = chart.shown(column / HATCH, row / HATCH)?;
+        let hatched = on_hatching(column, row) && cell.as_ref().is_some_and(unsafe_in);
+        let colour = cell.map_or(tokens.inset, colour);
+        Some(if hatched { colour.lerp_to_gamma(tokens.danger, 0.9) } else { colour })
+    };
+    let limits = safety.as_ref().map_or(0, Safety::fingerprint);
+    let revision = revision(chart.version(), context.studies.motions.generation()) ^ limits;
+    let (columns, rows) = question.size;
+    let texture = raster(ui, Id::unique("motion chart"), revision, (HATCH * columns, HATCH * rows), paint)?;
+    Some(Picture {
+        texture,
+        side: HATCH,
+        omega: question.x.1,
+        beta: question.y.1,
+        known: chart.version() > 0,
+    })
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
@@ -161,8 +187,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         .allow_double_click_reset(false)
         .show(ui, |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
-            if let Some(Picture { texture, omega, beta, known }) = &picture {
-                draw_raster(plot, texture, *omega, *beta, if *known { 1.0 } else { 0.5 });
+            if let Some(Picture { texture, side, omega, beta, known }) = &picture {
+                draw_cells(plot, texture, *side, *omega, *beta, if *known { 1.0 } else { 0.5 });
             }
             for tongue in &boundaries.tongues {
                 plot_style::series(plot, Series::Published, "published boundary", &tongue.published);

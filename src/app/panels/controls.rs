@@ -1,13 +1,11 @@
 //! The left column: the three main controls, the folded structure, the beam.
 
-use std::f64::consts::TAU;
-
 use egui::Ui;
 
-use super::{Context, beam, structure};
+use super::{Context, beam, device, structure};
 use crate::app::map::Boundaries;
 use crate::app::widgets::{Mark, ParameterSlider};
-use crate::model::{Device, Parameter, ParameterSet};
+use crate::model::{Parameter, ParameterSet, Units};
 
 /// Ends of the sliders; numbers beyond can come from a file or a request.
 pub(super) const FREQUENCIES: (f64, f64) = (0.5, 50.0);
@@ -16,26 +14,40 @@ const SMALLEST_EXCITATION: f64 = 1e-5;
 
 /// Draws the column.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    main_controls(context, ui);
+    above(context, ui);
     ui.add_space(4.0);
-    rest(context, ui);
+    below(context, ui);
 }
 
-/// Structure and beam.
-pub(in crate::app) fn rest(context: &mut Context<'_>, ui: &mut Ui) {
-    structure::show(context, ui);
+/// What stands above the plots where there is one column: what is changed most.
+pub(in crate::app) fn above(context: &mut Context<'_>, ui: &mut Ui) {
+    if device::is_shown(context.view) {
+        device::excitation(context, ui);
+    } else {
+        device::choose_units(context, ui);
+        main_controls(context, ui);
+    }
+}
+
+/// What stands below them: structure and beam.
+pub(in crate::app) fn below(context: &mut Context<'_>, ui: &mut Ui) {
+    if device::is_shown(context.view) {
+        device::structure(context, ui);
+    } else {
+        structure::show(context, ui);
+    }
     ui.add_space(4.0);
     beam::show(context, ui);
 }
 
 /// Damping, excitation, frequency.
-pub(in crate::app) fn main_controls(context: &mut Context<'_>, ui: &mut Ui) {
+fn main_controls(context: &mut Context<'_>, ui: &mut Ui) {
     let mut set = context.view.scenario.parameters;
     let before = set;
-    let device = Device::default();
+    let units = context.view.scenario.units();
     let boundaries = context.session.boundaries.as_ref();
-    let (damping, excitation) = (damping_in_words(boundaries, &set), excitation_in_words(&device, &set));
-    let frequency = frequency_in_words(&device, &set);
+    let (damping, excitation) = (damping_in_words(boundaries, &set), excitation_in_words(&units, &set));
+    let frequency = frequency_in_words(&units, &set);
     let default = ParameterSet::default();
     let (low, high) = Parameter::Alpha.range();
     ParameterSlider::new("Damping", "α", &mut set.alpha, low..=high)
@@ -67,7 +79,7 @@ pub(in crate::app) fn main_controls(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 /// Marks of the frequency slider, the secondary resonances first.
-fn resonance_marks(boundaries: &Boundaries) -> Vec<Mark> {
+pub(super) fn resonance_marks(boundaries: &Boundaries) -> Vec<Mark> {
     let frequencies = &boundaries.frequencies;
     let first = frequencies[0];
     let mut marks =
@@ -98,15 +110,13 @@ fn damping_in_words(boundaries: Option<&Boundaries>, set: &ParameterSet) -> Stri
     }
 }
 
-fn excitation_in_words(device: &Device, set: &ParameterSet) -> String {
-    let amplitude = set.beta * device.beam_length;
-    let angular = set.omega / device.time_unit();
-    let acceleration = amplitude * angular * angular / device.gravity;
-    format!("B {} mm  ·  {} g", short(1e3 * amplitude), short(acceleration))
+fn excitation_in_words(units: &Units, set: &ParameterSet) -> String {
+    let acceleration = units.acceleration(set.beta, set.omega);
+    format!("B {} mm  ·  {} g", short(units.millimetres(set.beta)), short(acceleration))
 }
 
-fn frequency_in_words(device: &Device, set: &ParameterSet) -> String {
-    let hertz = set.omega / (TAU * device.time_unit());
+fn frequency_in_words(units: &Units, set: &ParameterSet) -> String {
+    let hertz = units.hertz(set.omega);
     format!("{} Hz  ·  period {} s", short(hertz), short(1.0 / hertz))
 }
 

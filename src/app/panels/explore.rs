@@ -54,7 +54,8 @@ pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], draw: &mut dyn FnMut(&mut Ui, &T
     }
 }
 
-fn place(ui: &mut Ui, width: f32, height: f32, draw: &mut dyn FnMut(&mut Ui)) {
+/// A place of this size.
+pub(super) fn place(ui: &mut Ui, width: f32, height: f32, draw: &mut dyn FnMut(&mut Ui)) {
     ui.allocate_ui(vec2(width, height), |ui| {
         ui.set_min_size(vec2(width, height));
         ui.set_max_size(vec2(width, height));
@@ -76,5 +77,7 @@ fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
         Panel::Spectrum => spectrum::show(context, ui),
         Panel::Evidence => evidence::show(context, ui),
         Panel::Basins => basins::show(context, ui),
+        // These have pages of their own on the Design tab.
+        Panel::Harvest | Panel::Load | Panel::DesignMap | Panel::Measured => {}
     }
 }

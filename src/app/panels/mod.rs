@@ -5,6 +5,8 @@ pub(super) mod beam;
 pub(super) mod chart;
 pub(super) mod controls;
 pub(super) mod curves;
+pub(super) mod design;
+mod device;
 pub(super) mod evidence;
 pub(super) mod explore;
 pub(super) mod figure_boundaries;
@@ -26,6 +28,7 @@ pub(super) mod time_history;
 pub(super) mod top_bar;
 pub(super) mod verdict;
 
+use super::bench::Bench;
 use super::command::{Command, Commands};
 use super::crew::Studies;
 use super::session::{Session, Shown, Status};
@@ -37,6 +40,7 @@ pub(super) struct Context<'a> {
     pub view: &'a View,
     pub session: &'a Session,
     pub studies: &'a Studies,
+    pub bench: &'a Bench,
     pub commands: &'a mut Commands,
 }
 
@@ -46,6 +50,13 @@ impl<'a> Context<'a> {
         let mut scenario = self.view.scenario.clone();
         change(&mut scenario);
         self.commands.push(Command::Show(Box::new(scenario)));
+    }
+
+    /// Asks for the Design tab after `change`.
+    pub(super) fn redesign(&mut self, change: impl FnOnce(&mut super::view::design::DesignView)) {
+        let mut design = self.view.design.clone();
+        change(&mut design);
+        self.commands.push(Command::Design(Box::new(design)));
     }
 
     /// The newest answer.

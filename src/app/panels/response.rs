@@ -14,7 +14,8 @@ use crate::dynamics::sweep::SweepPoint;
 use crate::jobs::response::{ResponseCurve, ResponsePoint};
 use crate::jobs::study::sweep::{Direction, SweepStudy};
 use crate::jobs::work::Work;
-use crate::model::{Device, ParameterSet, ReducedSystem};
+use crate::model::ReducedSystem;
+use crate::scenario::Scenario;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -34,8 +35,8 @@ struct Measure {
 }
 
 impl Measure {
-    fn new(output: Output, system: &ReducedSystem) -> Self {
-        Self { output, microwatts: microwatts(), gap: system.equilibrium.gap }
+    fn new(output: Output, scenario: &Scenario, system: &ReducedSystem) -> Self {
+        Self { output, microwatts: microwatts(scenario), gap: system.equilibrium.gap }
     }
 
     fn axis(&self) -> Axis {
@@ -60,17 +61,15 @@ impl Measure {
     }
 }
 
-/// Microwatts of a dimensionless power of 1: V^2 / R over kappa v^2, the same for every load.
-pub(super) fn microwatts() -> f64 {
-    let kappa = ParameterSet::default().kappa;
-    let resistance = Device::default().resistance_of(kappa);
-    resistance.map_or(0.0, |resistance| 1e6 / (resistance * kappa))
+/// Microwatts of a dimensionless power of 1 in `scenario`'s device: V^2 / R over kappa v^2, the same for every load.
+pub(super) fn microwatts(scenario: &Scenario) -> f64 {
+    1e6 * scenario.units().power
 }
 
 fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(study) = context.studies.sweep.study() else { return };
     let Some(shown) = context.shown() else { return };
-    let measure = Measure::new(context.view.sweep.output, &shown.run.system);
+    let measure = Measure::new(context.view.sweep.output, &shown.scenario, &shown.run.system);
     legend::legend(
         ui,
         &[

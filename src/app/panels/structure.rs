@@ -31,11 +31,17 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         number(ui, &mut changed.parameters, Parameter::Kappa);
         number(ui, &mut changed.parameters, Parameter::Theta);
     });
-    Fold::new("Model").summary(&model_in_words(&scenario)).show(ui, |ui| model(ui, &mut changed));
-    Fold::new("Start").summary(&start_in_words(&scenario)).show(ui, |ui| start(ui, &mut changed));
+    model_and_start(ui, &mut changed);
     if changed != scenario {
         context.edit(|scenario| *scenario = changed);
     }
+}
+
+/// The sections that SI units do not change.
+pub(super) fn model_and_start(ui: &mut Ui, changed: &mut Scenario) {
+    let (in_words, from) = (model_in_words(changed), start_in_words(changed));
+    Fold::new("Model").summary(&in_words).show(ui, |ui| model(ui, changed));
+    Fold::new("Start").summary(&from).show(ui, |ui| start(ui, changed));
 }
 
 /// One compact slider; its range, scale and words.

@@ -58,6 +58,7 @@ fn choose_tab(context: &mut Context<'_>, ui: &mut Ui) {
         (Tab::Explore, "Explore"),
         (Tab::Stability, "Stability"),
         (Tab::Sweep, "Sweep"),
+        (Tab::Design, "Design"),
         (Tab::Paper, "Paper"),
     ];
     if tabs(ui, &mut tab, &all) {

@@ -4,12 +4,15 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, RichText, Ui};
 
 use super::Context;
+use super::design::safety::Safety;
 use crate::app::reading::{Reading, Tone};
-use crate::app::session::Status;
+use crate::app::session::{Shown, Status};
 use crate::app::{fonts, theme};
+use crate::dynamics::Outcome;
+use crate::model::Demand;
 
 /// Between texts of a line.
-const SEPARATOR: &str = "  ·  ";
+pub(super) const SEPARATOR: &str = "  ·  ";
 
 /// Draws the bar.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -27,6 +30,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         (_, Tone::Notable) => tokens.warning,
         (_, Tone::Plain) => tokens.ok,
     };
+    let broken = broken(context, shown);
     let frame = egui::Frame::new()
         .fill(tokens.card)
         .corner_radius(theme::radius::CARD)
@@ -45,6 +49,8 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         line.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
         let facts = format(fonts::regular(theme::size::BODY), tokens.text);
         line.append(&reading.facts.join(SEPARATOR), 12.0, facts);
+        let broken: String = broken.iter().map(|text| format!("{SEPARATOR}beyond a limit: {text}")).collect();
+        line.append(&broken, 0.0, format(fonts::regular(theme::size::BODY), tokens.danger));
         ui.label(line);
         if !reading.remarks.is_empty() {
             let remarks = reading.remarks.join(SEPARATOR);
@@ -55,4 +61,19 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let stripe = egui::Rect::from_min_max(rect.min, egui::pos2(rect.left() + 5.0, rect.bottom()));
     let rounding = egui::CornerRadius { nw: theme::radius::CARD, sw: theme::radius::CARD, ne: 0, se: 0 };
     ui.painter().rect_filled(stripe, rounding, colour);
+}
+
+/// The limits of the Design tab that the motion in view breaks.
+fn broken(context: &Context<'_>, shown: &Shown) -> Vec<String> {
+    let lasts = shown.run.outcome() == Outcome::Completed;
+    let summary = shown.run.summary.as_ref().filter(|_| lasts);
+    let demand = summary.map(|summary| Demand {
+        v_peak: summary.v_peak,
+        tip: (summary.tip_min, summary.tip_max),
+        slope: None,
+    });
+    match (Safety::of(context.view, context.session), demand) {
+        (Some(safety), Some(demand)) => safety.broken(&demand),
+        _ => Vec::new(),
+    }
 }

@@ -5,25 +5,25 @@ use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Ui, vec2}
 use crate::app::{fonts, theme};
 
 /// A context with the app's fonts and look, and a clock.
-pub(super) struct Harness {
-    pub(super) context: egui::Context,
+pub(in crate::app) struct Harness {
+    pub(in crate::app) context: egui::Context,
     size: egui::Vec2,
     time: f64,
     /// Role, label, value and bounds of every widget of the last frame.
-    pub(super) nodes: Vec<Node>,
+    pub(in crate::app) nodes: Vec<Node>,
 }
 
 /// One widget as the accessibility tree shows it.
 #[derive(Debug, Clone)]
-pub(super) struct Node {
-    pub(super) role: egui::Role,
-    pub(super) label: String,
-    pub(super) number: Option<f64>,
-    pub(super) bounds: Rect,
+pub(in crate::app) struct Node {
+    pub(in crate::app) role: egui::Role,
+    pub(in crate::app) label: String,
+    pub(in crate::app) number: Option<f64>,
+    pub(in crate::app) bounds: Rect,
 }
 
 impl Harness {
-    pub(super) fn new(width: f32, height: f32) -> Self {
+    pub(in crate::app) fn new(width: f32, height: f32) -> Self {
         let context = egui::Context::default();
         fonts::install(&context);
         theme::apply(&context, true);
@@ -32,7 +32,7 @@ impl Harness {
     }
 
     /// One frame, 1/60 s after the previous, with these events.
-    pub(super) fn frame(&mut self, events: Vec<Event>, mut draw: impl FnMut(&mut Ui)) {
+    pub(in crate::app) fn frame(&mut self, events: Vec<Event>, mut draw: impl FnMut(&mut Ui)) {
         self.time += 1.0 / 60.0;
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, self.size)),
@@ -51,27 +51,27 @@ impl Harness {
     }
 
     /// Enough frames without input for layout and hit testing to settle.
-    pub(super) fn settle(&mut self, mut draw: impl FnMut(&mut Ui)) {
+    pub(in crate::app) fn settle(&mut self, mut draw: impl FnMut(&mut Ui)) {
         for _ in 0..3 {
             self.frame(Vec::new(), &mut draw);
         }
     }
 
     /// The first widget of that role whose label starts with `label`.
-    pub(super) fn find(&self, role: egui::Role, label: &str) -> Node {
+    pub(in crate::app) fn find(&self, role: egui::Role, label: &str) -> Node {
         let found = self.nodes.iter().find(|node| node.role == role && node.label.starts_with(label));
         found.unwrap_or_else(|| panic!("no {role:?} {label:?} in {:#?}", self.nodes)).clone()
     }
 
     /// Presses and releases the primary button at `position`.
-    pub(super) fn click(&mut self, position: Pos2, mut draw: impl FnMut(&mut Ui)) {
+    pub(in crate::app) fn click(&mut self, position: Pos2, mut draw: impl FnMut(&mut Ui)) {
         self.frame(vec![Event::PointerMoved(position)], &mut draw);
         self.frame(vec![button(position, true)], &mut draw);
         self.frame(vec![button(position, false)], &mut draw);
     }
 
     /// Drags from one place to another in a few steps, and lets go.
-    pub(super) fn drag(&mut self, from: Pos2, to: Pos2, mut draw: impl FnMut(&mut Ui)) {
+    pub(in crate::app) fn drag(&mut self, from: Pos2, to: Pos2, mut draw: impl FnMut(&mut Ui)) {
         self.frame(vec![Event::PointerMoved(from)], &mut draw);
         self.frame(vec![button(from, true)], &mut draw);
         for step in 1..=4 {
@@ -81,7 +81,7 @@ impl Harness {
     }
 
     /// Presses a key with modifiers held.
-    pub(super) fn key(&mut self, key: Key, modifiers: Modifiers, mut draw: impl FnMut(&mut Ui)) {
+    pub(in crate::app) fn key(&mut self, key: Key, modifiers: Modifiers, mut draw: impl FnMut(&mut Ui)) {
         for pressed in [true, false] {
             let event = Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
             let held = if pressed { modifiers } else { Modifiers::NONE };
@@ -90,7 +90,7 @@ impl Harness {
     }
 
     /// Types text into whatever has the keyboard.
-    pub(super) fn text(&mut self, text: &str, draw: impl FnMut(&mut Ui)) {
+    pub(in crate::app) fn text(&mut self, text: &str, draw: impl FnMut(&mut Ui)) {
         self.frame(vec![Event::Text(text.to_owned())], draw);
     }
 }

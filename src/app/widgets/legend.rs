@@ -37,6 +37,14 @@ pub enum Series {
     Stable,
     /// An unstable branch: short dashes.
     Unstable,
+    /// The device without its magnets: long grey dashes.
+    Linear,
+    /// What is measured: small discs.
+    Measured,
+    /// A limit: a solid line.
+    Limit,
+    /// Beyond a limit: rings.
+    Beyond,
     /// Pinned for comparison: a thin grey line.
     Ghost,
 }
@@ -72,6 +80,9 @@ impl Series {
             Self::Up => tokens.numeric,
             Self::Down => tokens.warning,
             Self::Stable | Self::Unstable => tokens.ok,
+            Self::Linear => tokens.text_weak,
+            Self::Measured => tokens.theory,
+            Self::Limit | Self::Beyond => tokens.danger,
             Self::Ghost => tokens.ghost,
         }
     }
@@ -93,6 +104,10 @@ impl Series {
             Self::Down => Pen::Rings(3.2),
             Self::Stable => Pen::Line(2.4),
             Self::Unstable => Pen::Dashes(1.5, 5.0),
+            Self::Linear => Pen::Dashes(1.8, 10.0),
+            Self::Measured => Pen::Points(2.0),
+            Self::Limit => Pen::Line(1.6),
+            Self::Beyond => Pen::Rings(5.0),
             Self::Ghost => Pen::Line(1.0),
         }
     }

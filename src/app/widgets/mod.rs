@@ -12,9 +12,10 @@ pub mod plot_style;
 pub mod raster;
 pub mod swatch;
 pub mod tabs;
+pub mod tile;
 
 #[cfg(test)]
-mod harness;
+pub(super) mod harness;
 
 pub use badge::{BadgeKind, badge};
 pub use beam_view::BeamView;
@@ -23,6 +24,7 @@ pub use fold::Fold;
 pub use icon::{Icon, icon_button};
 pub use legend::{Series, legend_entry};
 pub use parameter_slider::{Mark, ParameterSlider, SliderResponse};
-pub use raster::{draw_raster, raster};
+pub use raster::{HATCH, draw_cells, draw_raster, on_hatching, raster};
 pub use swatch::{attractor_row, colour_bar, swatches};
 pub use tabs::{chips, tabs};
+pub use tile::{Tile, tiles};

@@ -61,6 +61,21 @@ pub fn significant(value: f64, digits: usize) -> String {
     typographic(&text)
 }
 
+/// The factor and the sign of the SI prefix that makes `value` readable: 1.3e-5 counts in `(1e6, "µ")`.
+pub fn prefix(value: f64) -> (f64, &'static str) {
+    const PREFIXES: [(f64, &str); 8] =
+        [(1e-9, "G"), (1e-6, "M"), (1e-3, "k"), (1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n"), (1e12, "p")];
+    let readable = |(factor, _): &&(f64, &str)| value.abs() * factor >= 0.9995;
+    let smallest = if value == 0.0 { PREFIXES[3] } else { PREFIXES[7] };
+    if value.is_finite() { PREFIXES.iter().find(readable).copied().unwrap_or(smallest) } else { PREFIXES[3] }
+}
+
+/// `value` with three significant digits and its unit under a prefix: `13.2 µW`.
+pub fn with_unit(value: f64, unit: &str) -> String {
+    let (factor, sign) = prefix(value);
+    format!("{} {sign}{unit}", significant(factor * value, 3))
+}
+
 /// `value` rounded to `digits` significant decimal digits.
 pub fn round_significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
@@ -126,6 +141,10 @@ mod tests {
         assert_eq!(display(-0.0), "0");
         assert_eq!(significant(14.234, 3), "14.2");
         assert_eq!(significant(9.996, 3), "10.0");
+        assert_eq!(with_unit(1.32e-5, "W"), "13.2 µW");
+        assert_eq!(with_unit(7_631_732.0, "Ω"), "7.63 MΩ");
+        assert_eq!(with_unit(0.999_96, "V"), "1.00 V");
+        assert_eq!(with_unit(0.0, "V"), "0 V");
         assert_eq!(tick(-1e-18, 0.1), "0");
         assert_eq!(tick(0.014, 0.002), "0.014");
         assert_eq!(tick(-100.0, 50.0), "−100");

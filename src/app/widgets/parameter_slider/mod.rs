@@ -256,8 +256,12 @@ impl Rows {
     fn arrange(ui: &mut Ui, slider: &ParameterSlider<'_>, mapping: &Mapping, width: f32) -> Self {
         let font = fonts::regular(theme::size::BODY);
         let unit = ui.painter().layout_no_wrap(slider.unit.to_owned(), font, egui::Color32::PLACEHOLDER);
-        let field = if slider.compact { COMPACT_FIELD } else { FIELD }
-            + if slider.unit.is_empty() { 0.0 } else { unit.size().x + 8.0 };
+        let field = match (slider.compact, slider.unit.is_empty()) {
+            (true, true) => COMPACT_FIELD,
+            (true, false) => COMPACT_FIELD - 4.0 + unit.size().x,
+            (false, true) => FIELD,
+            (false, false) => FIELD + 8.0 + unit.size().x,
+        };
         let width = width.max(170.0);
         if slider.compact {
             let (all, _) = ui.allocate_exact_size(vec2(width, NAME_ROW), Sense::hover());

@@ -30,6 +30,7 @@ pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [
         (Series::Ghost, _) => (1.2, 0.5),
         (Series::TheoryPoint, _) => (7.0, 1.0),
         (Series::Down, _) => (2.6, 0.8),
+        (Series::Beyond, _) => (4.5, 0.9),
         (_, 0..=40) => (5.0, 1.0),
         (_, 41..=400) => (2.6, 0.9),
         _ => (1.5, 0.75),

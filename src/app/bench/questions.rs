@@ -1,0 +1,191 @@
+//! What the Design tab asks the crew.
+
+use crate::app::bench;
+use crate::app::map::HALF_WIDTH;
+use crate::app::session::Session;
+use crate::app::view::View;
+use crate::app::view::design::{Aim, Side};
+use crate::app::widgets::number::round_significant;
+use crate::dynamics::sweep::Dwell;
+use crate::dynamics::tongue::Window as TongueWindow;
+use crate::jobs::design::find::{FindQuestion, Objective, Variable};
+use crate::jobs::design::linear::{linear_balance, linear_peak};
+use crate::jobs::design::{DesignWork, Harvest, Plant};
+use crate::jobs::motions::{Coordinate, at_place};
+use crate::jobs::study::harvest::HarvestQuestion;
+use crate::jobs::study::load::{LoadQuestion, LoadStudy};
+use crate::jobs::study::table::Table;
+use crate::jobs::work::Work;
+use crate::model::{Dimension, Parameter};
+use crate::scenario::{ModelChoice, Scenario};
+
+/// Loads whose best frequency is looked for: every so many of those in view.
+const EVERY_LOAD: usize = 4;
+/// Power (W) that counts in the band of a candidate unless one is chosen.
+pub(in crate::app) const LEAST: f64 = 1e-6;
+/// Frequencies of the band of a candidate.
+const BAND_POINTS: usize = 12;
+/// Frequencies of a curve.
+const FREQUENCIES: usize = 97;
+/// Half width of a window about a frequency far from every resonance, over that frequency.
+const ABOUT: f64 = 0.2;
+/// Smallest window, over its middle.
+const LEAST_WINDOW: f64 = 1e-3;
+
+/// Lowest and highest omega (dimensionless) of the curves: as chosen, or the map's window about the present frequency.
+pub(in crate::app) fn window(view: &View, session: &Session) -> (f64, f64) {
+    let (minimum, maximum) = Parameter::Omega.range();
+    let omega = view.scenario.parameters.omega;
+    let units = view.scenario.units();
+    let near = session.boundaries.as_ref().and_then(|boundaries| {
+        let resonance = boundaries.resonance_near(omega)?;
+        let middle = boundaries.tongue(resonance)?.published_frequency;
+        Some((middle - HALF_WIDTH, middle + HALF_WIDTH))
+    });
+    let (low, high) = match (view.design.window, near) {
+        (Some((from, to)), _) => (units.omega(from.min(to)), units.omega(from.max(to))),
+        (None, Some(near)) => near,
+        (None, None) => {
+            // About a round value, so that the window stays while the frequency moves a little.
+            let middle = (0.125 * (omega.log2() * 8.0).round()).exp2();
+            ((1.0 - ABOUT) * middle, (1.0 + ABOUT) * middle)
+        }
+    };
+    let low = low.clamp(minimum, maximum * (1.0 - LEAST_WINDOW));
+    (low, high.clamp(low * (1.0 + LEAST_WINDOW), maximum))
+}
+
+/// The curves over frequency.
+pub(in crate::app) fn harvest(view: &View, session: &Session) -> HarvestQuestion {
+    let window = window(view, session);
+    let mut scenario = Scenario { initial: None, ..view.scenario.clone() };
+    if scenario.base().loss_tangent == 0.0 {
+        // Then the frequency in view plays no role, and must not make another question.
+        scenario.parameters.omega = window.0;
+    }
+    HarvestQuestion { scenario, window, count: FREQUENCIES, dwell: Dwell::default() }
+}
+
+/// The curves over the load, at the frequency in view.
+pub(in crate::app) fn load(view: &View) -> Option<LoadQuestion> {
+    LoadQuestion::about(view.scenario.clone(), None).ok()
+}
+
+/// What the linear device would give at its own first resonance under the same acceleration: frequency (Hz) and what
+/// it harvests there.
+pub(in crate::app) fn linear_at_its_best(scenario: &Scenario) -> Option<(f64, Harvest)> {
+    let plant = Plant::new(scenario).ok()?;
+    let first = plant.without_magnets().ok()?.modes.iter().next()?.omega;
+    let (omega, _) = linear_peak(&plant, (0.6 * first, 1.4 * first)).ok()?;
+    let p = &scenario.parameters;
+    let mut there = scenario.clone();
+    there.parameters.beta = (p.beta * (p.omega / omega).powi(2)).min(Parameter::Beta.range().1);
+    there.parameters.omega = omega;
+    let plant = Plant::new(&there).ok()?;
+    let system = plant.without_magnets().ok()?;
+    let balance = linear_balance(&system).ok()?;
+    Some((plant.units.hertz(omega), Harvest::new(&plant, &system, &balance)))
+}
+
+/// The ceramics on the device in view. What they replace plays no role and must not make another question.
+pub(in crate::app) fn materials(view: &View) -> Table {
+    let mut scenario = view.scenario.clone();
+    scenario.parameters.alpha = 0.0;
+    let mut base = scenario.base();
+    (base.ceramic, base.loss_tangent, base.viscosity) = (None, 0.0, 0.0);
+    scenario.device = Some(base);
+    let mode = view.design.mode.clamp(1, view.scenario.model.modes);
+    Table::materials(&scenario, mode, view.design.resonance, TongueWindow::default())
+}
+
+/// The quantity in view over modes and force laws.
+pub(in crate::app) fn trust(view: &View) -> Table {
+    // The model in view plays no role: every entry has its own.
+    let mut scenario = Scenario { initial: None, ..view.scenario.clone() };
+    scenario.model = ModelChoice::default();
+    Table::trust(&scenario, view.design.quantity)
+}
+
+/// The best frequency of a few loads.
+pub(in crate::app) fn best_frequencies(view: &View, session: &Session, loads: &LoadStudy) -> Table {
+    let window = window(view, session);
+    let mut scenario = Scenario { initial: None, ..view.scenario.clone() };
+    if scenario.base().loss_tangent == 0.0 {
+        scenario.parameters.omega = window.0;
+    }
+    scenario.parameters.kappa = Parameter::Kappa.get(&Default::default());
+    let work = |resistance: &f64| {
+        let (scenario, resistance) = (scenario.clone(), *resistance);
+        Work::Design(DesignWork::BestFrequency { scenario, resistance, window })
+    };
+    Table::new(loads.resistances().iter().step_by(EVERY_LOAD).map(work).collect())
+}
+
+/// The range of a side of the map (in SI units): as chosen, or about a round value near the present one.
+pub(in crate::app) fn range_of(view: &View, session: &Session, side: &Side) -> (f64, f64) {
+    let (least, most) = side.dimension.accepted();
+    let (low, high) = side.range.unwrap_or_else(|| {
+        let (usual_low, usual_high) = side.dimension.usual();
+        let device = view.scenario.device().unwrap_or_default();
+        let value = side.dimension.get(&device);
+        match side.dimension {
+            Dimension::Frequency => {
+                let (low, high) = window(view, session);
+                let units = view.scenario.units();
+                (units.hertz(low), units.hertz(high))
+            }
+            _ if value > 0.0 && value.is_finite() => {
+                let span = if side.dimension == Dimension::Resistance { 10.0 } else { 2.0 };
+                let middle = round_significant(value.log2().round().exp2(), 1);
+                (middle / span, middle * span)
+            }
+            _ => (usual_low, usual_high),
+        }
+    });
+    let (low, high) = (low.min(high).clamp(least, most), low.max(high).clamp(least, most));
+    if high > low { (low, high) } else { (0.5 * low, 1.5 * low.max(1e-12)) }
+}
+
+fn variable(view: &View, session: &Session, side: &Side) -> Variable {
+    let range = range_of(view, session, side);
+    let logarithmic = side.dimension.logarithmic() && range.0 > 0.0 && range.1 > 3.0 * range.0;
+    Variable { coordinate: Coordinate::Dimension(side.dimension), range, logarithmic }
+}
+
+fn objective(view: &View, session: &Session) -> Objective {
+    match view.design.search.aim {
+        Aim::Power => Objective::Power,
+        Aim::PerG2 => Objective::PowerPerG2,
+        Aim::Voltage => Objective::Voltage,
+        Aim::Threshold => Objective::Threshold(view.design.resonance),
+        Aim::Band => {
+            let (low, high) = window(view, session);
+            let units = view.scenario.units();
+            let (from, to, count) = (units.hertz(low), units.hertz(high), BAND_POINTS);
+            Objective::Band { least: view.design.least.unwrap_or(LEAST), from, to, count }
+        }
+    }
+}
+
+/// The map in view. What its sides vary must not make another question.
+pub(in crate::app) fn map(view: &View, session: &Session) -> FindQuestion {
+    let variables: Vec<Variable> =
+        view.design.search.sides.iter().map(|side| variable(view, session, side)).collect();
+    let mut scenario = view.scenario.clone();
+    let coordinates: Vec<Coordinate> = variables.iter().map(|variable| variable.coordinate).collect();
+    let middles: Vec<f64> = variables.iter().map(|variable| variable.at(0.5)).collect();
+    if let Ok(anywhere) = at_place(&scenario, &coordinates, &middles) {
+        scenario = anywhere;
+    }
+    let objective = objective(view, session);
+    FindQuestion { scenario, variables, objective, limits: bench::limits(view) }
+}
+
+/// The search in view, from the device in view.
+pub(in crate::app) fn find(view: &View, session: &Session) -> FindQuestion {
+    let search = &view.design.search;
+    let sides = search.sides.iter().chain(&search.third);
+    let variables = sides.map(|side| variable(view, session, side)).collect();
+    let objective = objective(view, session);
+    FindQuestion { scenario: view.scenario.clone(), variables, objective, limits: bench::limits(view) }
+}

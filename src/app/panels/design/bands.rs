@@ -1,0 +1,180 @@
+//! Where enough power is delivered: bands of the curves over frequency, and the least power that counts.
+
+use egui::{Grid, RichText, Ui};
+use egui_plot::{HLine, PlotUi};
+
+use super::harvest::{Measure, linear_points};
+use crate::app::bench::questions;
+use crate::app::panels::{Context, explore};
+use crate::app::theme;
+use crate::app::view::View;
+use crate::app::widgets::number::{round_significant, significant, with_unit};
+use crate::app::widgets::{Card, ParameterSlider, chips};
+use crate::jobs::design::Interval;
+use crate::jobs::design::band::{half_power, total, usable};
+use crate::jobs::study::harvest::HarvestStudy;
+use crate::jobs::study::sweep::Direction;
+
+/// Least power (W) on the slider.
+const LEAST: f64 = 1e-9;
+
+/// Draws the cards beside the curves.
+pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    Card::new("Bands").hint("at the base's present amplitude").hugging().show(ui, |ui| table(context, ui));
+    ui.add_space(explore::GAP);
+    Card::new("Best load").hugging().show(ui, |ui| super::load::brief(context, ui));
+    ui.add_space(explore::GAP);
+    Card::new("Limits").hugging().show(ui, |ui| super::limits::controls(context, ui));
+    ui.add_space(explore::GAP);
+    Card::new("Frequencies").hugging().show(ui, |ui| window(context, ui));
+}
+
+/// One curve of power for the bands.
+type Power = Vec<Vec<[f64; 2]>>;
+
+fn curves(study: &HarvestStudy) -> [(&'static str, Power); 5] {
+    let linear = linear_points(study).iter().map(|point| [point.frequency, point.power]).collect();
+    [
+        ("without magnets", vec![linear]),
+        ("stable motions", study.stable_power()),
+        ("from rest", study.rest_power()),
+        ("swept up", study.swept_power(Direction::Up)),
+        ("swept down", study.swept_power(Direction::Down)),
+    ]
+}
+
+fn highest(power: &Power) -> Option<[f64; 2]> {
+    power.iter().flatten().copied().max_by(|a, b| a[1].total_cmp(&b[1]))
+}
+
+/// The power (W) that counts as usable: the one chosen, or half of the highest.
+fn least(view: &View, study: &HarvestStudy) -> f64 {
+    view.design.least.unwrap_or_else(|| {
+        let all = curves(study);
+        let top =
+            all.iter().filter_map(|(_, power)| highest(power)).map(|place| place[1]).fold(0.0, f64::max);
+        round_significant(0.5 * top, 2)
+    })
+}
+
+/// Draws that power into a plot of powers.
+pub(super) fn least_line(plot: &mut PlotUi<'_>, view: &View, study: &HarvestStudy, measure: &Measure) {
+    let at = measure.coordinate(least(view, study));
+    let colour = theme::tokens_in(plot.ctx()).ruler;
+    if at.is_finite() {
+        let style = egui_plot::LineStyle::Dotted { spacing: 6.0 };
+        plot.hline(HLine::new("least power that counts", at).color(colour).width(1.4).style(style));
+    }
+}
+
+fn table(context: &mut Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let Some(study) = context.studies.bench.harvest.study() else { return };
+    let present = least(context.view, study);
+    let small = |text: &str| RichText::new(text.to_owned()).small();
+    least_slider(context, ui, present);
+    if context.view.design.least.is_some() && ui.button(small("half of the highest")).clicked() {
+        context.redesign(|design| design.least = None);
+    }
+    ui.add_space(4.0);
+    let all = curves(study);
+    ui.spacing_mut().interact_size.y = 18.0;
+    Grid::new("bands").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
+        for text in ["", "highest", "half power", "enough"] {
+            ui.label(small(text).color(tokens.text_weak));
+        }
+        ui.end_row();
+        for (name, power) in &all {
+            let Some([frequency, top]) = highest(power) else { continue };
+            let bands = usable(power, present);
+            let half =
+                if *name == "without magnets" { Some(study.linear().half_power) } else { half_power(power) };
+            ui.label(small(name).color(tokens.text));
+            let peak = ui.label(small(&with_unit(top, "W")).color(tokens.text_strong));
+            peak.on_hover_text(format!("at {} Hz", significant(frequency, 5)));
+            let shown = half.map_or("–".to_owned(), |half| hertz(half.to - half.from));
+            let label = ui.label(small(&shown).color(tokens.text));
+            if let Some(half) = half {
+                label.on_hover_text(interval(&half));
+            }
+            let width = total(&bands);
+            let shown = if bands.is_empty() { "none".to_owned() } else { hertz(width) };
+            let label = ui.label(small(&shown).color(tokens.text_strong));
+            if !bands.is_empty() {
+                label.on_hover_text(bands.iter().map(interval).collect::<Vec<_>>().join("\n"));
+            }
+            ui.end_row();
+        }
+    });
+    let stable = usable(&all[1].1, present);
+    let text = if stable.is_empty() {
+        format!("Nowhere here does a stable motion give {}.", with_unit(present, "W"))
+    } else {
+        let list = stable.iter().map(interval).collect::<Vec<_>>().join(", ");
+        format!("At least {} over {list} by stable motions.", with_unit(present, "W"))
+    };
+    ui.add_space(2.0);
+    ui.add(egui::Label::new(small(&text).color(tokens.text)).wrap());
+}
+
+/// Chooses the power (W) that counts.
+pub(super) fn least_slider(context: &mut Context<'_>, ui: &mut Ui, present: f64) {
+    let mut microwatts = round_significant(1e6 * present, 6);
+    let slider = ParameterSlider::new("Enough is", "P", &mut microwatts, 0.0..=1e6)
+        .logarithmic_from(1e6 * LEAST)
+        .unit("µW")
+        .tooltip("Power from which a frequency counts as usable: half of the highest unless you choose it.")
+        .compact();
+    if slider.show(ui).changed {
+        context.redesign(|design| design.least = Some(1e-6 * microwatts));
+    }
+}
+
+fn hertz(width: f64) -> String {
+    format!("{} Hz", significant(width, 3))
+}
+
+fn interval(interval: &Interval) -> String {
+    format!("{} to {} Hz", significant(interval.from, 5), significant(interval.to, 5))
+}
+
+/// The window of the curves.
+fn window(context: &mut Context<'_>, ui: &mut Ui) {
+    let units = context.view.scenario.units();
+    let (low, high) = questions::window(context.view, context.session);
+    let (mut from, mut to) = (units.hertz(low), units.hertz(high));
+    let before = (from, to);
+    let mut automatic = context.view.design.window.is_none();
+    if chips(ui, "Window", &mut automatic, &[(true, "about the present"), (false, "own")]) {
+        context.redesign(|design| design.window = (!automatic).then_some(before));
+    }
+    presets(context, ui);
+    let (least, most) = (units.hertz(0.1), units.hertz(80.0).max(to));
+    for (name, value) in [("From", &mut from), ("To", &mut to)] {
+        *value = round_significant(*value, 6);
+        ParameterSlider::new(name, "", value, least..=most).logarithmic().unit("Hz").compact().show(ui);
+    }
+    let rounded = (round_significant(before.0, 6), round_significant(before.1, 6));
+    if (from, to) != rounded {
+        context.redesign(|design| design.window = Some((from, to)));
+    }
+}
+
+/// Buttons for the windows about the natural frequencies.
+fn presets(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(boundaries) = &context.session.boundaries else { return };
+    let units = context.view.scenario.units();
+    let first = boundaries.frequencies.first().copied().unwrap_or(4.0);
+    let mut places = vec![(first, "ω₁"), (2.0 * first, "2ω₁")];
+    if let Some(second) = boundaries.frequencies.get(1) {
+        places.push((first + second, "ω₁+ω₂"));
+    }
+    ui.horizontal_wrapped(|ui| {
+        for (omega, name) in places {
+            if ui.button(RichText::new(name).small()).clicked() {
+                let window = (units.hertz(0.85 * omega), units.hertz(1.15 * omega));
+                context.redesign(|design| design.window = Some(window));
+            }
+        }
+    });
+}

@@ -1,0 +1,256 @@
+//! What the device delivers over frequency: linear, forced, from rest, and by sweeps up and down.
+
+use egui::Ui;
+use egui_plot::{PlotPoint, VLine};
+
+use super::safety::{Safety, beyond};
+use crate::app::panels::Context;
+use crate::app::theme;
+use crate::app::view::Panel;
+use crate::app::view::design::Watched;
+use crate::app::widgets::number::{prefix, round_significant};
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Series, chips, legend};
+use crate::jobs::study::Study as _;
+use crate::jobs::study::harvest::{HarvestPoint, HarvestStudy};
+use crate::jobs::study::sweep::Direction;
+
+/// Draws the card.
+pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = match context.studies.bench.harvest.study() {
+        Some(study) if !study.finished() => format!("computing {:.0} %", 100.0 * study.progress()),
+        _ => "click to go to a frequency".to_owned(),
+    };
+    context.plot_card(ui, Panel::Harvest, "Over frequency", &hint, |context, ui| {
+        header(context, ui);
+        let study = context.studies.bench.harvest.study();
+        match study {
+            Some(study) if study.failure().is_none() => plot(context, ui, study),
+            Some(study) => {
+                let rect = ui.available_rect_before_wrap();
+                plot_style::no_data(ui, rect, study.failure().unwrap_or_default());
+            }
+            None => {
+                let rect = ui.available_rect_before_wrap();
+                plot_style::no_data(ui, rect, "There are no curves for this device: see the message above.");
+            }
+        }
+    });
+}
+
+fn header(context: &mut Context<'_>, ui: &mut Ui) {
+    let (mut watched, mut logarithmic) = (context.view.design.watched, context.view.design.logarithmic);
+    let choices = [
+        (Watched::Power, "power"),
+        (Watched::PerG2, "per g²"),
+        (Watched::Voltage, "V rms"),
+        (Watched::Peak, "V peak"),
+        (Watched::Tip, "tip"),
+    ];
+    ui.horizontal_wrapped(|ui| {
+        let mut changed = chips(ui, "Over frequency", &mut watched, &choices);
+        if watched != Watched::Tip {
+            changed |= chips(ui, "Scale", &mut logarithmic, &[(false, "linear"), (true, "log")]);
+        }
+        if changed {
+            context.redesign(|design| (design.watched, design.logarithmic) = (watched, logarithmic));
+        }
+    });
+    legend::legend(
+        ui,
+        &[
+            (Series::Linear, "without magnets"),
+            (Series::Stable, "stable"),
+            (Series::Unstable, "unstable"),
+            (Series::Poincare, "from rest"),
+            (Series::Up, "swept up"),
+            (Series::Down, "swept down"),
+            (Series::Beyond, "beyond a limit"),
+        ],
+    );
+}
+
+/// What the vertical axis measures.
+pub(in crate::app) struct Measure {
+    watched: Watched,
+    factor: f64,
+    axis: Axis,
+}
+
+impl Measure {
+    /// For values up to `highest`, in SI units.
+    pub(in crate::app) fn new(watched: Watched, logarithmic: bool, highest: f64) -> Self {
+        let (factor, sign) = if watched == Watched::Tip { (1.0, "") } else { prefix(highest) };
+        let (name, symbol, unit) = match watched {
+            Watched::Power => ("power in the load", "P", "W"),
+            Watched::PerG2 => ("power per g²", "P/a²", "W/g²"),
+            Watched::Voltage => ("voltage, rms", "v", "V"),
+            Watched::Peak => ("largest voltage", "v", "V"),
+            Watched::Tip => ("tip", "s", "mm"),
+        };
+        let axis = Axis::new(name, symbol).unit(format!("{sign}{unit}"));
+        let axis = if logarithmic && watched != Watched::Tip { axis.logarithmic() } else { axis };
+        Self { watched, factor, axis }
+    }
+
+    /// One value in SI units (mm for the tip), or two where there is a range.
+    fn values(&self, point: &HarvestPoint) -> [f64; 2] {
+        values(self.watched, point)
+    }
+
+    /// Where a value in SI units is drawn.
+    pub(in crate::app) fn coordinate(&self, value: f64) -> f64 {
+        self.axis.coordinate(self.factor * value)
+    }
+
+    /// Its axis.
+    pub(in crate::app) fn axis(&self) -> &Axis {
+        &self.axis
+    }
+
+    fn line(&self, points: &[HarvestPoint], side: usize) -> Vec<PlotPoint> {
+        let place =
+            |point: &HarvestPoint| PlotPoint::new(point.frequency, self.coordinate(self.values(point)[side]));
+        points.iter().map(place).collect()
+    }
+}
+
+fn values(watched: Watched, point: &HarvestPoint) -> [f64; 2] {
+    match watched {
+        Watched::Power => [point.power; 2],
+        Watched::PerG2 => [point.power_per_g2; 2],
+        Watched::Voltage => [point.v_rms; 2],
+        Watched::Peak => [point.v_peak; 2],
+        Watched::Tip => [point.tip.0, point.tip.1],
+    }
+}
+
+/// The linear device as points of a curve.
+pub(super) fn linear_points(study: &HarvestStudy) -> Vec<HarvestPoint> {
+    let units = study.question().scenario.units();
+    let beta = study.question().scenario.parameters.beta;
+    let point = |[frequency, v_rms, power, tip]: &[f64; 4]| {
+        let acceleration = units.acceleration(beta, units.omega(*frequency));
+        let power_per_g2 = if acceleration > 0.0 { power / (acceleration * acceleration) } else { 0.0 };
+        let v_peak = v_rms * std::f64::consts::SQRT_2;
+        HarvestPoint {
+            frequency: *frequency,
+            v_rms: *v_rms,
+            v_peak,
+            power: *power,
+            power_per_g2,
+            tip: (-tip, *tip),
+        }
+    };
+    study.linear().points.iter().map(point).collect()
+}
+
+/// What ended delivers nothing and leaves a gap.
+fn lasting(points: Vec<HarvestPoint>) -> Vec<HarvestPoint> {
+    points.into_iter().filter(|point| point.v_peak > 0.0).collect()
+}
+
+/// Everything that is drawn: its kind, its name, its points.
+fn curves(study: &HarvestStudy) -> Vec<(Series, String, Vec<HarvestPoint>)> {
+    let mut curves = vec![(Series::Linear, "without magnets".to_owned(), linear_points(study))];
+    for branch in study.branches().and_then(Result::ok).unwrap_or_default() {
+        let name = match branch.periods {
+            1 => "forced motion".to_owned(),
+            periods => format!("period {periods}"),
+        };
+        let points = study.branch_points(branch);
+        let mut rest = points.as_slice();
+        while let Some((_, stable)) = rest.first() {
+            let count = rest.iter().take_while(|(_, other)| other == stable).count();
+            // Neighbours share their border.
+            let run = rest[..(count + 1).min(rest.len())].iter().map(|(point, _)| *point).collect();
+            curves.push((if *stable { Series::Stable } else { Series::Unstable }, name.clone(), run));
+            rest = &rest[count..];
+        }
+    }
+    let from_rest = study.from_rest().iter().filter_map(|start| start.flatten()).map(|(_, point)| point);
+    curves.push((Series::Poincare, "from rest".to_owned(), from_rest.collect()));
+    curves.push((Series::Down, "swept down".to_owned(), lasting(study.swept(Direction::Down))));
+    curves.push((Series::Up, "swept up".to_owned(), lasting(study.swept(Direction::Up))));
+    curves
+}
+
+fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
+    let view = context.view;
+    let watched = view.design.watched;
+    let curves = curves(study);
+    let all = || curves.iter().flat_map(|(_, _, points)| points);
+    let highest = all().map(|point| values(watched, point)[1].abs()).fold(0.0, f64::max);
+    let measure = Measure::new(watched, view.design.logarithmic, highest);
+    let safety = Safety::of(view, context.session);
+    let place = |side: usize| {
+        let measure = &measure;
+        move |point: &HarvestPoint| {
+            PlotPoint::new(point.frequency, measure.coordinate(measure.values(point)[side]))
+        }
+    };
+    let sides = if watched == Watched::Tip { 2 } else { 1 };
+    let mut drawn: Vec<(Series, &str, Vec<PlotPoint>)> = Vec::new();
+    for side in 0..sides {
+        for (kind, name, points) in &curves {
+            drawn.push((*kind, name, measure.line(points, side)));
+            if *kind != Series::Unstable {
+                let demand = |point: &HarvestPoint| (point.v_peak, point.tip);
+                let over = beyond(safety.as_ref(), points, &demand, &place(side));
+                drawn.push((Series::Beyond, "beyond a limit", over));
+            }
+        }
+    }
+    let measured = super::measured::over_frequency(context, watched, &measure);
+    let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.harvest.as_ref());
+    for (kind, _, points) in kept.map_or_else(Vec::new, self::curves) {
+        if matches!(kind, Series::Stable | Series::Poincare) {
+            drawn.push((Series::Ghost, "pinned", measure.line(&points, 0)));
+        }
+    }
+    let x = Axis::new("excitation frequency", "f").unit("Hz");
+    let units = view.scenario.units();
+    let (low, high) = study.question().window;
+    let (low, high) = (units.hertz(low), units.hertz(high));
+    let here = units.hertz(view.scenario.parameters.omega);
+    let colour = theme::tokens(ui).ruler;
+    let id = ("harvest", watched as u8, measure.axis().title());
+    let mut plot = plot_style::plot(ui, id, &x, measure.axis()).include_x(low).include_x(high);
+    if watched != Watched::Tip && !view.design.logarithmic {
+        plot = plot.include_y(0.0);
+    }
+    let shown = plot.show(ui, |plot| {
+        plot.vline(VLine::new("", here).color(colour).width(1.0).allow_hover(false));
+        for (kind, name, line) in &drawn {
+            plot_style::series(plot, *kind, name, line);
+        }
+        plot_style::points(plot, Series::Measured, "measured", &measured);
+        match (&safety, watched) {
+            (Some(safety), Watched::Peak) => {
+                safety.voltage_lines(plot, low, &|volts| measure.coordinate(volts))
+            }
+            (Some(safety), Watched::Tip) => safety.tip_lines(plot, low),
+            (_, Watched::Power) => super::bands::least_line(plot, view, study, &measure),
+            _ => {}
+        }
+    });
+    let clicked = shown.response.clicked().then(|| shown.response.interact_pointer_pos()).flatten();
+    if let Some(at) = clicked {
+        let frequency = shown.transform.value_from_position(at).x.clamp(low, high);
+        go_to(context, frequency);
+    }
+}
+
+/// Goes to a frequency (Hz), at the acceleration or the amplitude that is held.
+pub(super) fn go_to(context: &mut Context<'_>, frequency: f64) {
+    let holds = context.view.design.holds_acceleration;
+    context.edit(|scenario| {
+        let units = scenario.units();
+        let p = &mut scenario.parameters;
+        let omega = round_significant(units.omega(frequency), 5);
+        if holds {
+            p.beta *= (p.omega / omega).powi(2);
+        }
+        p.omega = omega;
+    });
+}

@@ -1,0 +1,84 @@
+//! The limits to choose: thickness and voltage of the ceramic, gap, deflection.
+
+use egui::{RichText, Ui};
+
+use super::safety::{self, Safety};
+use crate::app::panels::Context;
+use crate::app::theme;
+use crate::app::widgets::number::{round_significant, with_unit};
+use crate::app::widgets::{ParameterSlider, chips};
+use crate::model::Limits;
+use crate::model::limits::Standing;
+
+/// Draws the choices, and how the motion reached stands to each.
+pub(super) fn controls(context: &mut Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let before = context.view.design.limits;
+    let mut limits = before;
+    let base = context.view.scenario.base();
+    let published = Limits::of(&base).voltage;
+    let mut own = limits.voltage.is_some();
+    let choices = [(false, "by the ceramic"), (true, "own voltage")];
+    if chips(ui, "Voltage allowed", &mut own, &choices) {
+        limits.voltage = own.then(|| published.unwrap_or((50.0, 50.0)));
+    }
+    match &mut limits.voltage {
+        Some((low, high)) => {
+            let slider = ParameterSlider::new("Peak voltage", "V", low, 0.01..=1e5);
+            slider.logarithmic().unit("V").compact().show(ui);
+            *high = *low;
+        }
+        None => {
+            let millimetres = round_significant(1e3 * base.ceramic_thickness, 4);
+            let text = match (published, base.ceramic) {
+                (Some((low, high)), Some(ceramic)) => format!(
+                    "{} of {millimetres} mm bears {} to {} (section 5.4).",
+                    ceramic.material().name,
+                    with_unit(low, "V"),
+                    with_unit(high, "V"),
+                ),
+                (None, Some(ceramic)) => {
+                    format!("No field limit is published for {}.", ceramic.material().name)
+                }
+                (_, None) => {
+                    "No ceramic chosen: choose one under Materials, or a voltage of your own.".to_owned()
+                }
+            };
+            ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
+        }
+    }
+    let mut percent = round_significant(100.0 * limits.gap, 6);
+    let slider = ParameterSlider::new("Gap closed", "s/s₀", &mut percent, 1.0..=100.0).unit("%");
+    slider.tooltip("Part of the gap that the tip may close; at 100 % the magnets touch.").compact().show(ui);
+    limits.gap = percent / 100.0;
+    let mut percent = round_significant(100.0 * limits.deflection, 6);
+    let slider = ParameterSlider::new("Deflection", "s", &mut percent, 1.0..=100.0).unit("%");
+    slider
+        .default_value(100.0 * Limits::default().deflection)
+        .tooltip("Largest tip displacement over the beam's length; beyond 30 % no beam is a linear one.")
+        .compact()
+        .show(ui);
+    limits.deflection = percent / 100.0;
+    if limits != before && limits.validate().is_ok() {
+        context.redesign(|design| design.limits = limits);
+    }
+    checks(context, ui);
+}
+
+/// How the motion reached stands to each limit.
+fn checks(context: &Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let Some((Ok(operating), _)) = context.studies.bench.operating(&context.view.scenario) else { return };
+    let Some(harvest) = &operating.reached.harvest else { return };
+    let Some(safety) = Safety::of(context.view, context.session) else { return };
+    ui.add_space(4.0);
+    for check in safety.limits.checks(&harvest.demand, safety.gap) {
+        let (sign, colour) = match check.standing {
+            Standing::Within => ("✓", tokens.ok),
+            Standing::Marginal => ("±", tokens.warning),
+            Standing::Exceeded => ("✕", tokens.danger),
+        };
+        let text = format!("{sign}  {}", safety::in_words(&check));
+        ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
+    }
+}

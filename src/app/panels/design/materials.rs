@@ -1,0 +1,157 @@
+//! The ceramics of Table 2 on the device, side by side.
+
+use egui::{Grid, RichText, Ui};
+
+use super::safety;
+use crate::app::command::Command;
+use crate::app::panels::{Context, explore};
+use crate::app::theme;
+use crate::app::widgets::number::{significant, with_unit};
+use crate::app::widgets::{Card, chips};
+use crate::jobs::design::materials::{MaterialRow, with_ceramic};
+use crate::jobs::study::Study as _;
+use crate::model::Limits;
+use crate::model::limits::Standing;
+use crate::model::materials::Ceramic;
+use crate::theory::Resonance;
+
+/// Draws the page.
+pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = match context.studies.bench.materials.study() {
+        Some(table) if !table.finished() => format!("computing {:.0} %", 100.0 * table.progress()),
+        _ => "Table 2 and section 5.4".to_owned(),
+    };
+    Card::new("Ceramics on this device").hint(&hint).hugging().show(ui, |ui| {
+        choices(context, ui);
+        ui.add_space(6.0);
+        egui::ScrollArea::horizontal().id_salt("ceramics").show(ui, |ui| table(context, ui));
+        ui.add_space(6.0);
+        notes(context, ui);
+    });
+    ui.add_space(explore::GAP);
+    Card::new("Limits").hugging().show(ui, |ui| super::limits::controls(context, ui));
+}
+
+fn choices(context: &mut Context<'_>, ui: &mut Ui) {
+    let modes = context.view.scenario.model.modes;
+    let (mut mode, mut resonance) = (context.view.design.mode.clamp(1, modes), context.view.design.resonance);
+    let names: Vec<String> = (1..=modes).map(|mode| format!("mode {mode}")).collect();
+    let all: Vec<(usize, &str)> = (1..=modes).zip(names.iter().map(String::as_str)).collect();
+    let resonances = [(Resonance::First, "2ω₁"), (Resonance::Sum, "ω₁+ω₂"), (Resonance::Second, "2ω₂")];
+    let weak = theme::tokens(ui).text_weak;
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("quality factor given to").small().color(weak));
+        let mut changed = chips(ui, "Quality factor of", &mut mode, &all);
+        ui.label(RichText::new("tongue near").small().color(weak));
+        changed |= chips(ui, "Tongue near", &mut resonance, &resonances);
+        if changed {
+            context.redesign(|design| (design.mode, design.resonance) = (mode, resonance));
+        }
+    });
+}
+
+const HEADINGS: [&str; 10] =
+    ["", "ceramic", "Q", "tan δ", "α", "threshold", "at", "tongue open", "power", "peak / allowed"];
+
+fn table(context: &mut Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let present = context.view.scenario.base().ceramic;
+    let Some(study) = context.studies.bench.materials.study() else { return };
+    let rows: Vec<Option<Result<&MaterialRow, &str>>> = study.material_rows().collect();
+    ui.spacing_mut().interact_size.y = 24.0;
+    Grid::new("ceramics").num_columns(HEADINGS.len()).spacing([18.0, 4.0]).show(ui, |ui| {
+        for text in HEADINGS {
+            ui.label(RichText::new(text).small().color(tokens.text_weak));
+        }
+        ui.end_row();
+        for (ceramic, row) in Ceramic::ALL.into_iter().zip(rows) {
+            let material = ceramic.material();
+            let used = present == Some(ceramic);
+            let label = if used { "in use" } else { "use" };
+            if ui.add_enabled(!used, egui::Button::new(RichText::new(label).small())).clicked() {
+                adopt(context, ceramic);
+            }
+            let colour = if used { tokens.accent } else { tokens.text_strong };
+            ui.label(RichText::new(material.name).color(colour));
+            ui.label(material.quality_factor.to_string());
+            let bound = if material.dissipation_is_bound { "< " } else { "" };
+            ui.label(format!("{bound}{} %", significant(100.0 * material.dissipation_factor, 2)));
+            match row {
+                Some(Ok(row)) => found(context, ui, row),
+                Some(Err(message)) => {
+                    ui.label(RichText::new(message).small().color(tokens.warning));
+                }
+                None => {
+                    ui.label(RichText::new("computing").small().color(tokens.text_weak));
+                }
+            }
+            ui.end_row();
+        }
+    });
+}
+
+/// What a ceramic makes of the device.
+fn found(context: &Context<'_>, ui: &mut Ui, row: &MaterialRow) {
+    let tokens = theme::tokens(ui);
+    ui.label(significant(row.alpha, 3));
+    match &row.threshold {
+        Some(threshold) => {
+            ui.label(format!("{} g", significant(threshold.acceleration, 3)))
+                .on_hover_text(format!("β = {}", significant(threshold.beta, 4)));
+            ui.label(format!("{} Hz", significant(threshold.frequency, 4)));
+        }
+        None => {
+            ui.label("none");
+            ui.label("–");
+        }
+    }
+    let open =
+        row.open.map_or("closed".to_owned(), |open| format!("{} Hz", significant(open.to - open.from, 3)));
+    let label = ui.label(open);
+    if let Some(open) = row.open {
+        label.on_hover_text(format!("{} to {} Hz", significant(open.from, 5), significant(open.to, 5)));
+    }
+    let Some(harvest) = &row.reached.harvest else {
+        ui.label(RichText::new(row.reached.motion.to_string()).color(tokens.danger));
+        ui.label("–");
+        return;
+    };
+    ui.label(RichText::new(with_unit(harvest.power, "W")).color(tokens.text_strong)).on_hover_text(format!(
+        "{}, {}",
+        row.reached.motion,
+        with_unit(harvest.v_rms, "V rms")
+    ));
+    // The ceramic's own voltage, unless the user chose one.
+    let limits = Limits {
+        voltage: context.view.design.limits.voltage.or(row.voltage_limit),
+        ..context.view.design.limits
+    };
+    let gap = context.session.boundaries.as_ref().and_then(|boundaries| boundaries.gap);
+    let checks = limits.checks(&harvest.demand, gap);
+    let colour = match safety::standing(&checks) {
+        Standing::Within => tokens.ok,
+        Standing::Marginal => tokens.warning,
+        Standing::Exceeded => tokens.danger,
+    };
+    let allowed = limits.voltage.map_or("not given".to_owned(), |(low, _)| with_unit(low, "V"));
+    let text = format!("{} / {allowed}", with_unit(harvest.demand.v_peak, "V"));
+    let said: Vec<String> = checks.iter().map(safety::in_words).collect();
+    ui.label(RichText::new(text).color(colour)).on_hover_text(said.join("\n"));
+}
+
+fn adopt(context: &mut Context<'_>, ceramic: Ceramic) {
+    let mode = context.view.design.mode.clamp(1, context.view.scenario.model.modes);
+    let taken = with_ceramic(&context.view.scenario, ceramic, mode);
+    context.commands.push(Command::Adopt(taken.map(Box::new).map_err(|error| error.to_string())));
+}
+
+fn notes(context: &Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let mode = context.view.design.mode.clamp(1, context.view.scenario.model.modes);
+    let text = format!(
+        "A ceramic sets the damping α so that mode {mode} alone has its quality factor, and its dissipation factor as a \
+         conductance beside the load at the present frequency. Stiffness, mass, coupling and capacitance stay: Table 2 \
+         gives none. Threshold: lowest shaking that opens the tongue; tongue open: its width at the present amplitude.",
+    );
+    ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
+}

@@ -1,0 +1,226 @@
+//! Measured data over computed curves.
+
+use egui::{RichText, Ui};
+use egui_plot::PlotPoint;
+
+use super::harvest::Measure;
+use crate::app::bench::measured::{Domain, File};
+use crate::app::command::Command;
+use crate::app::panels::{Context, explore};
+use crate::app::theme;
+use crate::app::view::Panel;
+use crate::app::view::design::Watched;
+use crate::app::widgets::number::{significant, with_unit};
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Card, Icon, Series, chips, legend};
+
+/// Points of the computed curve.
+const POINTS: usize = 3000;
+/// Most columns that are offered.
+const COLUMNS: usize = 8;
+
+/// Draws the card with the plot.
+pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = match context.bench.measured.progress() {
+        Some(done) => format!("reading {:.0} %", 100.0 * done),
+        None => "drop a file anywhere on the page".to_owned(),
+    };
+    context.plot_card(ui, Panel::Measured, "Measured", &hint, |context, ui| {
+        let Some(file) = &context.bench.measured.file else {
+            let text = "Drop a text file here, or open one: columns of time and voltage, or of frequency and voltage. \
+                        It stays in this browser.";
+            plot_style::no_data(ui, ui.available_rect_before_wrap(), text);
+            return;
+        };
+        match file.reading.domain {
+            Domain::Time => over_time(context, ui, file),
+            Domain::Frequency => frequencies(context, ui, file),
+        }
+    });
+}
+
+/// Voltage over time, beside the end of the run in view.
+fn over_time(context: &Context<'_>, ui: &mut Ui, file: &File) {
+    legend::legend(ui, &[(Series::Measured, "measured"), (Series::Numeric, "computed: the end of the run")]);
+    let Some(shown) = context.shown() else { return };
+    let unit = context.view.scenario.units().time;
+    let first = file.drawn.first().map_or(0.0, |point| point.x);
+    let last = file.drawn.last().map_or(0.0, |point| point.x);
+    let end = shown.run.trajectory.end_time();
+    let span = ((last - first) / unit).min(end);
+    let voltage = shown.run.system.dimension() - 1;
+    let mut curve = Vec::with_capacity(POINTS);
+    if span > 0.0 {
+        shown.run.trajectory.sample(end - span, end, POINTS, |time, state| {
+            curve.push(PlotPoint::new(first + (time - end + span) * unit, state[voltage]));
+        });
+    }
+    let (x, y) = (Axis::new("time", "t").unit("s"), Axis::new("voltage", "v").unit("V"));
+    plot_style::plot(ui, ("measured", file.name.as_str(), 0), &x, &y).show(ui, |plot| {
+        plot_style::series(plot, Series::Numeric, "computed", &curve);
+        let colour = theme::tokens_in(plot.ctx()).theory;
+        let points = egui_plot::PlotPoints::Borrowed(&file.drawn);
+        plot.line(egui_plot::Line::new("measured", points).color(colour).width(1.2).allow_band(false));
+    });
+}
+
+/// Voltage over frequency, beside the curves of the page Harvest.
+fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
+    legend::legend(
+        ui,
+        &[
+            (Series::Measured, "measured"),
+            (Series::Linear, "without magnets"),
+            (Series::Stable, "stable"),
+            (Series::Up, "from rest"),
+        ],
+    );
+    let (x, y) =
+        (Axis::new("excitation frequency", "f").unit("Hz"), Axis::new("voltage, rms", "v").unit("V"));
+    let mut stable: Vec<Vec<PlotPoint>> = Vec::new();
+    let (mut linear, mut reached) = (Vec::new(), Vec::new());
+    if let Some(study) = context.studies.bench.harvest.study() {
+        linear.extend(study.linear().points.iter().map(|[f, v, ..]| PlotPoint::new(*f, *v)));
+        for branch in study.branches().and_then(Result::ok).unwrap_or_default() {
+            let points = study.branch_points(branch);
+            for run in points.chunk_by(|a, b| a.1 == b.1).filter(|run| run[0].1) {
+                stable.push(
+                    run.iter().map(|(point, _)| PlotPoint::new(point.frequency, point.v_rms)).collect(),
+                );
+            }
+        }
+        let starts = study.from_rest().iter().filter_map(|start| start.flatten());
+        reached.extend(starts.map(|(_, point)| PlotPoint::new(point.frequency, point.v_rms)));
+    }
+    plot_style::plot(ui, ("measured", file.name.as_str(), 1), &x, &y).include_y(0.0).show(ui, |plot| {
+        plot_style::series(plot, Series::Linear, "without magnets", &linear);
+        for run in &stable {
+            plot_style::series(plot, Series::Stable, "stable", run);
+        }
+        plot_style::points(plot, Series::Up, "from rest", &reached);
+        plot_style::points(plot, Series::Measured, "measured", &file.drawn);
+    });
+}
+
+/// The measured voltages over frequency, for a plot of voltages.
+pub(super) fn over_frequency(context: &Context<'_>, watched: Watched, measure: &Measure) -> Vec<PlotPoint> {
+    let file = context.bench.measured.file.as_ref().filter(|file| file.reading.domain == Domain::Frequency);
+    match (watched, file) {
+        (Watched::Voltage | Watched::Peak, Some(file)) => {
+            file.drawn.iter().map(|point| PlotPoint::new(point.x, measure.coordinate(point.y))).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The cards beside the plot.
+pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
+    let title = context.bench.measured.file.as_ref().map_or("File", |file| file.name.as_str());
+    let open = context.bench.measured.file.is_some();
+    let card = Card::new(title).hugging();
+    let card = if open { card.button(Icon::Close, "Close") } else { card };
+    let shown = card.show(ui, |ui| {
+        let tokens = theme::tokens(ui);
+        if ui.button("Open a file").clicked() {
+            context.commands.push(Command::OpenFile);
+        }
+        if let Some(error) = &context.bench.measured.error {
+            ui.add(egui::Label::new(RichText::new(format!("{error}.")).color(tokens.danger)).wrap());
+        }
+        match &context.bench.measured.file {
+            Some(file) => reading(context, ui, file),
+            None => {
+                let text = "Comma, semicolon, tab or blanks between the columns, decimal point or comma, any header: \
+                            these are found out. A million rows are welcome.";
+                ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
+            }
+        }
+    });
+    if shown.pressed.is_some() {
+        context.commands.push(Command::Measure(None));
+    }
+    if let Some(file) = context.bench.measured.file.as_ref().filter(|file| file.measures.is_some()) {
+        ui.add_space(explore::GAP);
+        Card::new("Compared").hugging().show(ui, |ui| compared(context, ui, file));
+    }
+}
+
+/// Which columns, in which units.
+fn reading(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
+    let weak = theme::tokens(ui).text_weak;
+    let mut reading = file.reading;
+    let count = file.layout.columns.min(COLUMNS);
+    let names: Vec<String> = (0..count)
+        .map(|column| {
+            let named = file
+                .layout
+                .header
+                .as_ref()
+                .and_then(|names| names.get(column))
+                .filter(|name| !name.is_empty());
+            named.map_or_else(|| format!("{}", column + 1), |name| name.chars().take(18).collect())
+        })
+        .collect();
+    let columns: Vec<(usize, &str)> = (0..count).zip(names.iter().map(String::as_str)).collect();
+    let label = |ui: &mut Ui, text: &str| {
+        ui.label(RichText::new(text).small().color(weak));
+    };
+    label(ui, "first column is");
+    chips(
+        ui,
+        "First column is",
+        &mut reading.domain,
+        &[(Domain::Time, "time"), (Domain::Frequency, "frequency")],
+    );
+    chips(ui, "Column of the first", &mut reading.columns.x, &columns);
+    let units: &[(f64, &str)] = match reading.domain {
+        Domain::Time => &[(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")],
+        Domain::Frequency => &[(1.0, "Hz"), (1e3, "kHz"), (std::f64::consts::FRAC_1_PI / 2.0, "rad/s")],
+    };
+    if reading.domain != file.reading.domain {
+        reading.columns.x_unit = 1.0;
+    }
+    chips(ui, "Unit of the first", &mut reading.columns.x_unit, units);
+    label(ui, if reading.domain == Domain::Time { "voltage" } else { "voltage, rms unless scaled" });
+    chips(ui, "Column of the voltage", &mut reading.columns.y, &columns);
+    let volts = [(1.0, "V"), (1e-3, "mV"), (std::f64::consts::FRAC_1_SQRT_2, "V amplitude"), (1e3, "kV")];
+    chips(ui, "Unit of the voltage", &mut reading.columns.y_unit, &volts);
+    let rows =
+        if file.points.is_empty() { String::new() } else { format!("{} rows read", file.points.len()) };
+    label(ui, &rows);
+    if reading != file.reading {
+        context.commands.push(Command::Measure(Some(reading)));
+    }
+}
+
+/// Measured and computed in numbers.
+fn compared(context: &Context<'_>, ui: &mut Ui, file: &File) {
+    let Some((rms, peak)) = file.measures else { return };
+    let tokens = theme::tokens(ui);
+    let line = |ui: &mut Ui, text: String| {
+        ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text)).wrap());
+    };
+    let (first, last) = (file.points.first(), file.points.last());
+    if let (Some(first), Some(last)) = (first, last) {
+        let unit = if file.reading.domain == Domain::Time { "s" } else { "Hz" };
+        line(ui, format!("from {} to {} {unit}", significant(first[0], 5), significant(last[0], 5)));
+    }
+    if file.reading.domain == Domain::Frequency {
+        let highest = file.points.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
+        if let Some([frequency, volts]) = highest {
+            line(ui, format!("highest {} at {} Hz", with_unit(*volts, "V"), significant(*frequency, 5)));
+        }
+        return;
+    }
+    line(ui, format!("measured {}, peak {} (about its mean)", with_unit(rms, "V rms"), with_unit(peak, "V")));
+    let found = context.studies.bench.operating(&context.view.scenario);
+    if let Some((Ok(operating), true)) = found
+        && let Some(harvest) = &operating.reached.harvest
+    {
+        let (v_rms, v_peak) = (harvest.v_rms, harvest.demand.v_peak);
+        line(ui, format!("computed {}, peak {}", with_unit(v_rms, "V rms"), with_unit(v_peak, "V")));
+        if v_rms > 0.0 {
+            line(ui, format!("measured over computed: {}", significant(rms / v_rms, 3)));
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! The limits of the device in view: what keeps them, and what they look like in plots.
+
+use egui_plot::{HLine, PlotPoint, PlotUi};
+
+use crate::app::bench;
+use crate::app::session::Session;
+use crate::app::view::View;
+use crate::app::widgets::number::with_unit;
+use crate::app::{fonts, theme};
+use crate::model::limits::{Check, LimitKind, Standing};
+use crate::model::{Demand, Limits, Units};
+
+/// The limits with what they refer to.
+pub(in crate::app) struct Safety {
+    /// What must be kept.
+    pub limits: Limits,
+    /// Distance of the magnets at rest (beam lengths); none without magnets.
+    pub gap: Option<f64>,
+    units: Units,
+}
+
+impl Safety {
+    /// Of the device in view, when it is one.
+    pub(in crate::app) fn of(view: &View, session: &Session) -> Option<Self> {
+        let gap = session.boundaries.as_ref()?.gap;
+        Some(Self { limits: bench::limits(view), gap, units: view.scenario.units() })
+    }
+
+    /// Whether a motion keeps them: its largest voltage (V) and its range of the tip (mm).
+    pub(super) fn allows(&self, v_peak: f64, tip: (f64, f64)) -> bool {
+        let beam = 1e3 * self.units.length;
+        let demand = Demand { v_peak, tip: (tip.0 / beam, tip.1 / beam), slope: None };
+        self.limits.allow(&demand, self.gap)
+    }
+
+    /// A number that is another one for other limits, so that a picture knows when it is old.
+    pub(in crate::app) fn fingerprint(&self) -> u64 {
+        let Limits { voltage, gap, deflection, .. } = self.limits;
+        let bits = [voltage.map_or(0.0, |(low, _)| low), gap, deflection, self.gap.unwrap_or(0.0)];
+        bits.iter()
+            .fold(0, |mixed: u64, value| mixed.rotate_left(17) ^ value.to_bits().wrapping_mul(0x9e37_79b9))
+    }
+
+    /// What a demand breaks, in words; empty when it keeps all.
+    pub(in crate::app) fn broken(&self, demand: &Demand) -> Vec<String> {
+        let checks = self.limits.checks(demand, self.gap);
+        checks.iter().filter(|check| check.standing != Standing::Within).map(in_words).collect()
+    }
+
+    /// Lowest and highest tip displacement (mm) that keep them.
+    pub(super) fn tip(&self) -> (f64, f64) {
+        let most = self.limits.deflection;
+        let lowest = self.gap.map_or(most, |gap| most.min(self.limits.gap * gap));
+        (self.units.millimetres(-lowest), self.units.millimetres(most))
+    }
+
+    /// Draws horizontal limits of a plot of voltages (V), with their names from x = `left`.
+    pub(super) fn voltage_lines(&self, plot: &mut PlotUi<'_>, left: f64, coordinate: &dyn Fn(f64) -> f64) {
+        if let Some((low, high)) = self.limits.voltage {
+            line(plot, [left, coordinate(low)], "largest voltage allowed");
+            if high > low {
+                line(plot, [left, coordinate(high)], "upper end of the range published");
+            }
+        }
+    }
+
+    /// Draws those of a plot of tip displacements (mm).
+    pub(super) fn tip_lines(&self, plot: &mut PlotUi<'_>, left: f64) {
+        let (low, high) = self.tip();
+        let closes = self.gap.is_some_and(|gap| self.limits.gap * gap < self.limits.deflection);
+        let contact =
+            if self.limits.gap >= 1.0 { "contact of the magnets" } else { "part of the gap allowed" };
+        line(plot, [left, low], if closes { contact } else { "largest deflection allowed" });
+        line(plot, [left, high], "largest deflection allowed");
+    }
+}
+
+fn line(plot: &mut PlotUi<'_>, [left, at]: [f64; 2], name: &str) {
+    let colour = theme::tokens_in(plot.ctx()).danger;
+    if at.is_finite() {
+        plot.hline(HLine::new(name, at).color(colour).width(1.6));
+        let font = fonts::regular(theme::size::SMALL);
+        let text = egui::RichText::new(format!(" {name}")).font(font).color(colour);
+        let text = egui_plot::Text::new("", PlotPoint::new(left, at), text)
+            .color(colour)
+            .anchor(egui::Align2::LEFT_BOTTOM);
+        plot.text(text.allow_hover(false));
+    }
+}
+
+/// Largest voltage (V), and lowest and highest tip displacement (mm).
+pub(super) type Asked = (f64, (f64, f64));
+
+/// Of `points`, those that go beyond the limits, by what `demand` says of each.
+pub(super) fn beyond<T>(
+    safety: Option<&Safety>,
+    points: &[T],
+    demand: &dyn Fn(&T) -> Asked,
+    place: &dyn Fn(&T) -> PlotPoint,
+) -> Vec<PlotPoint> {
+    let Some(safety) = safety else { return Vec::new() };
+    let violates = |point: &&T| {
+        let (v_peak, tip) = demand(point);
+        !safety.allows(v_peak, tip)
+    };
+    points.iter().filter(violates).map(place).collect()
+}
+
+/// A check in words: `tip closes 49 % of the gap`.
+pub(super) fn in_words(check: &Check) -> String {
+    let percent = |value: f64| crate::app::widgets::number::significant(100.0 * value, 2);
+    match check.kind {
+        LimitKind::Voltage => {
+            format!("peak {}, limit {}", with_unit(check.value, "V"), with_unit(check.limit, "V"))
+        }
+        LimitKind::Gap if check.limit < 1.0 => {
+            format!("gap closed {} %, limit {} %", percent(check.value), percent(check.limit))
+        }
+        LimitKind::Gap => format!("tip closes {} % of the gap", percent(check.value)),
+        LimitKind::Deflection => {
+            format!("deflection {} %, limit {} % of L", percent(check.value), percent(check.limit))
+        }
+        LimitKind::Slope => {
+            let digits = |value| crate::app::widgets::number::significant(value, 2);
+            format!("slope {}, limit {} rad", digits(check.value), digits(check.limit))
+        }
+        LimitKind::Sag => {
+            format!("sags by {} % of its length under gravity", percent(check.value))
+        }
+    }
+}
+
+/// The worst of the checks: the one with the least margin.
+pub(super) fn worst(checks: &[Check]) -> Option<&Check> {
+    checks.iter().min_by(|a, b| a.margin.total_cmp(&b.margin))
+}
+
+/// The standing of all together.
+pub(super) fn standing(checks: &[Check]) -> Standing {
+    if checks.iter().any(|check| check.standing == Standing::Exceeded) {
+        Standing::Exceeded
+    } else if checks.iter().any(|check| check.standing == Standing::Marginal) {
+        Standing::Marginal
+    } else {
+        Standing::Within
+    }
+}

@@ -1,0 +1,237 @@
+//! How far the model can be trusted at the present amplitude: force laws and numbers of modes against each other.
+
+use egui::{Grid, RichText, Ui};
+
+use crate::app::panels::{Context, explore};
+use crate::app::theme;
+use crate::app::widgets::number::{significant, with_unit};
+use crate::app::widgets::{Card, chips};
+use crate::dynamics::Motion;
+use crate::jobs::design::trust::{LAWS, LawError, Quantity, TrustEntry, law_error};
+use crate::jobs::study::Study as _;
+use crate::model::{ForceLaw, MAX_MODES};
+use crate::scenario::ModelChoice;
+use crate::theory::Resonance;
+
+/// The model that stands for the truth.
+const BEST: ModelChoice = ModelChoice { modes: 4, force: ForceLaw::Exact };
+const NAMES: [&str; 4] = ["quadratic", "cubic", "Taylor 5", "exact"];
+/// Relative difference from the exact law with most modes that counts as a good one, and as a bad one.
+const GOOD: f64 = 0.05;
+const BAD: f64 = 0.25;
+/// Width from which the cards stand side by side.
+const TWO_COLUMNS: f32 = 900.0;
+
+/// Draws the page.
+pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    if ui.available_width() < TWO_COLUMNS {
+        switch(context, ui);
+        ui.add_space(explore::GAP);
+        convergence(context, ui);
+    } else {
+        ui.columns(2, |columns| {
+            convergence(context, &mut columns[0]);
+            switch(context, &mut columns[1]);
+        });
+    }
+}
+
+fn switch(context: &mut Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    Card::new("At the present amplitude").hugging().show(ui, |ui| {
+        laws(context, ui);
+        ui.add_space(8.0);
+        let present = context.view.scenario.model;
+        if present == BEST {
+            let back = context.view.design.before.unwrap_or_default();
+            let text = format!("Back to {}", in_words(back));
+            if ui.button(text).clicked() {
+                adopt(context, back);
+            }
+        } else if ui.button("Switch the whole page to the exact law, 4 modes").clicked() {
+            context.redesign(|design| design.before = Some(present));
+            adopt(context, BEST);
+        }
+        let text = format!(
+            "The page computes with {}. Click a number in the table to compute with that model.",
+            in_words(present)
+        );
+        ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
+    });
+}
+
+fn in_words(model: ModelChoice) -> String {
+    let law = match model.force {
+        ForceLaw::Quadratic => "the quadratic law".to_owned(),
+        ForceLaw::Taylor(degree) => format!("Taylor {degree}"),
+        ForceLaw::Exact => "the exact law".to_owned(),
+    };
+    format!("{law}, {} mode{}", model.modes, if model.modes == 1 { "" } else { "s" })
+}
+
+fn adopt(context: &mut Context<'_>, model: ModelChoice) {
+    context.edit(|scenario| {
+        scenario.set_modes(model.modes);
+        scenario.model.force = model.force;
+    });
+}
+
+/// How far each force law is off where the motion goes.
+fn laws(context: &Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let found = context.studies.bench.operating(&context.view.scenario);
+    let Some((Ok(operating), _)) = found else { return };
+    let Some(harvest) = &operating.reached.harvest else {
+        ui.label("The motion ends: there is no amplitude to judge.");
+        return;
+    };
+    let Ok((system, _)) = context.view.scenario.validate() else { return };
+    let units = context.view.scenario.units();
+    let (low, high) = harvest.demand.tip;
+    ui.spacing_mut().interact_size.y = 20.0;
+    Grid::new("laws").num_columns(3).spacing([18.0, 4.0]).show(ui, |ui| {
+        let heads = [
+            "force law".to_owned(),
+            format!("closest, {} mm", significant(units.millimetres(low), 3)),
+            format!("farthest, {} mm", significant(units.millimetres(high), 3)),
+        ];
+        for head in heads {
+            ui.label(RichText::new(head).small().color(tokens.text_weak));
+        }
+        ui.end_row();
+        for (law, name) in LAWS.into_iter().zip(NAMES).take(3) {
+            ui.label(name);
+            for tip in [low, high] {
+                let error = law_error(&system, law, tip);
+                let colour = error.rest.map_or(tokens.danger, |off| shade(off.abs(), tokens));
+                let label = ui.label(RichText::new(off(&error)).color(colour));
+                if let Some(whole) = error.whole {
+                    let percent = significant(100.0 * whole, 2);
+                    label.on_hover_text(format!("{percent} % of the whole restoring force at the tip"));
+                }
+            }
+            ui.end_row();
+        }
+    });
+    let text =
+        "How much more (+) or less (−) than the magnets' own force each law gives beyond its linear part.";
+    ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
+}
+
+fn off(error: &LawError) -> String {
+    error.rest.map_or("contact".to_owned(), |rest| {
+        let sign = if rest > 0.0 { "+" } else { "" };
+        format!("{sign}{} %", significant(100.0 * rest, 2))
+    })
+}
+
+fn shade(off: f64, tokens: &theme::Tokens) -> egui::Color32 {
+    if off <= GOOD {
+        tokens.ok
+    } else if off <= BAD {
+        tokens.warning
+    } else {
+        tokens.danger
+    }
+}
+
+/// The quantity in view over modes and laws.
+fn convergence(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = match context.studies.bench.trust.study() {
+        Some(table) if !table.finished() => format!("computing {:.0} %", 100.0 * table.progress()),
+        _ => String::new(),
+    };
+    Card::new("Over modes and force laws").hint(&hint).hugging().show(ui, |ui| {
+        choose(context, ui);
+        ui.add_space(4.0);
+        table(context, ui);
+    });
+}
+
+fn choose(context: &mut Context<'_>, ui: &mut Ui) {
+    let mut quantity = context.view.design.quantity;
+    let threshold = match quantity {
+        Quantity::Threshold(resonance) => resonance,
+        _ => context.view.design.resonance,
+    };
+    let choices = [
+        (Quantity::Power, "power"),
+        (Quantity::Voltage, "voltage"),
+        (Quantity::Tip, "tip"),
+        (Quantity::Threshold(threshold), "threshold"),
+    ];
+    ui.horizontal_wrapped(|ui| {
+        let mut changed = chips(ui, "Compared", &mut quantity, &choices);
+        if let Quantity::Threshold(resonance) = &mut quantity {
+            let resonances =
+                [(Resonance::First, "2ω₁"), (Resonance::Sum, "ω₁+ω₂"), (Resonance::Second, "2ω₂")];
+            changed |= chips(ui, "Threshold of", resonance, &resonances);
+        }
+        if changed {
+            context.redesign(|design| design.quantity = quantity);
+        }
+    });
+}
+
+fn table(context: &mut Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let Some(study) = context.studies.bench.trust.study() else { return };
+    let entries: Vec<Option<Result<&TrustEntry, &str>>> = study.trust_entries().collect();
+    let value = |index: usize| entries.get(index).and_then(|entry| entry.as_ref()?.as_ref().ok()?.value);
+    let truth = value(entries.len().saturating_sub(1));
+    let quantity = context.view.design.quantity;
+    ui.spacing_mut().interact_size.y = 24.0;
+    egui::ScrollArea::horizontal().id_salt("trust").show(ui, |ui| {
+        Grid::new("trust").num_columns(LAWS.len() + 1).spacing([16.0, 3.0]).show(ui, |ui| {
+            ui.label(RichText::new("modes").small().color(tokens.text_weak));
+            for name in NAMES {
+                ui.label(RichText::new(name).small().color(tokens.text_weak));
+            }
+            ui.end_row();
+            for (row, modes) in (1..=MAX_MODES).enumerate() {
+                ui.label(modes.to_string());
+                for (column, law) in LAWS.into_iter().enumerate() {
+                    let entry = entries.get(row * LAWS.len() + column).copied().flatten();
+                    let model = ModelChoice { modes, force: law };
+                    let (text, said) = in_a_cell(entry, quantity);
+                    let known = entry.and_then(Result::ok).and_then(|entry| entry.value);
+                    let colour = match (known, truth) {
+                        (Some(value), Some(truth)) if truth != 0.0 => {
+                            shade((value / truth - 1.0).abs(), tokens)
+                        }
+                        _ => tokens.text_weak,
+                    };
+                    let present = context.view.scenario.model == model;
+                    let button = egui::Button::new(RichText::new(text).color(colour)).frame(present);
+                    if ui.add(button).on_hover_text(said).clicked() {
+                        adopt(context, model);
+                    }
+                }
+                ui.end_row();
+            }
+        });
+    });
+    let text = "From rest. Coloured by the difference from 8 modes under the exact law: green to 5 %, amber to 25 %. \
+                Motions of different classes do not converge to each other.";
+    ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
+}
+
+/// An entry in digits, and what to say about it.
+fn in_a_cell(entry: Option<Result<&TrustEntry, &str>>, quantity: Quantity) -> (String, String) {
+    let entry = match entry {
+        None => return ("…".to_owned(), "computing".to_owned()),
+        Some(Err(message)) => return ("–".to_owned(), message.to_owned()),
+        Some(Ok(entry)) => entry,
+    };
+    let said = entry.motion.map_or(String::new(), |motion| motion.to_string());
+    let text = match (entry.value, quantity, entry.motion) {
+        (Some(value), Quantity::Power, _) => with_unit(value, "W"),
+        (Some(value), Quantity::Voltage, _) => with_unit(value, "V"),
+        (Some(value), Quantity::Tip, _) => format!("{} mm", significant(value, 3)),
+        (Some(value), Quantity::Threshold(_), _) => significant(value, 4),
+        (None, _, Some(Motion::Contact { .. })) => "contact".to_owned(),
+        (None, _, Some(_)) => "escape".to_owned(),
+        (None, _, None) => "none".to_owned(),
+    };
+    (text, said)
+}

@@ -1,0 +1,151 @@
+//! What the Design tab shows, as stored.
+
+use serde::{Deserialize, Serialize};
+
+use crate::jobs::design::trust::Quantity;
+use crate::model::{Dimension, Limits};
+use crate::scenario::ModelChoice;
+use crate::theory::Resonance;
+
+/// The parts of the Design tab.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Page {
+    /// What the device delivers over frequency.
+    #[default]
+    Harvest,
+    /// Power against the load.
+    Load,
+    /// The ceramics side by side.
+    Materials,
+    /// How far the model can be trusted.
+    Trust,
+    /// Maps and the search for a design.
+    Search,
+    /// Measured data over computed curves.
+    Measured,
+}
+
+/// What is drawn over frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Watched {
+    /// Mean power in the load.
+    #[default]
+    Power,
+    /// The same over the square of the base's acceleration.
+    PerG2,
+    /// Root mean square of the voltage.
+    Voltage,
+    /// Its largest value, which the ceramic has to bear.
+    Peak,
+    /// Lowest and highest tip displacement.
+    Tip,
+}
+
+/// What a map shows and a search makes large.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Aim {
+    /// Mean power.
+    #[default]
+    Power,
+    /// Power over the square of the base's acceleration.
+    PerG2,
+    /// Voltage.
+    Voltage,
+    /// Width of the band in which the least power is reached.
+    Band,
+    /// Lowest excitation of the resonance in view.
+    Threshold,
+}
+
+/// A dimension that is varied, and how far; about its present value where no range is given.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Side {
+    /// Which.
+    pub dimension: Dimension,
+    /// Lowest and highest value in its SI unit.
+    #[serde(default)]
+    pub range: Option<(f64, f64)>,
+}
+
+impl Side {
+    /// About the present value.
+    pub const fn of(dimension: Dimension) -> Self {
+        Self { dimension, range: None }
+    }
+}
+
+/// What is mapped and searched.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct SearchView {
+    /// What is to be good.
+    pub aim: Aim,
+    /// Across and up the map; the search varies both.
+    pub sides: [Side; 2],
+    /// Varied by the search besides.
+    pub third: Option<Side>,
+    /// Generations of the search.
+    pub generations: usize,
+}
+
+impl Default for SearchView {
+    fn default() -> Self {
+        let sides = [Side::of(Dimension::Frequency), Side::of(Dimension::Resistance)];
+        Self { aim: Aim::default(), sides, third: None, generations: 20 }
+    }
+}
+
+/// The Design tab.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct DesignView {
+    /// The part in front.
+    pub page: Page,
+    /// Whether the left column shows the ten dimensionless numbers instead of the device.
+    pub dimensionless: bool,
+    /// Whether the base motion is held as an acceleration when the frequency changes, or else as an amplitude.
+    pub holds_acceleration: bool,
+    /// What is drawn over frequency.
+    pub watched: Watched,
+    /// Whether powers and voltages are drawn on a logarithmic scale.
+    pub logarithmic: bool,
+    /// Frequencies (Hz) of the curves; about the present one when absent.
+    pub window: Option<(f64, f64)>,
+    /// Power (W) that counts as usable; half of the highest when absent.
+    pub least: Option<f64>,
+    /// What must be kept. Its voltage is that of the ceramic where it is not given.
+    pub limits: Limits,
+    /// The mode that gets a ceramic's quality factor, from 1.
+    pub mode: usize,
+    /// The resonance whose tongue is compared.
+    pub resonance: Resonance,
+    /// What is compared over models.
+    pub quantity: Quantity,
+    /// Modes and force law before the page was switched to the exact one.
+    pub before: Option<ModelChoice>,
+    /// What is searched.
+    pub search: SearchView,
+}
+
+impl Default for DesignView {
+    fn default() -> Self {
+        Self {
+            page: Page::default(),
+            dimensionless: false,
+            holds_acceleration: true,
+            watched: Watched::default(),
+            logarithmic: false,
+            window: None,
+            least: None,
+            limits: Limits::default(),
+            mode: 1,
+            resonance: Resonance::First,
+            quantity: Quantity::Power,
+            before: None,
+            search: SearchView::default(),
+        }
+    }
+}

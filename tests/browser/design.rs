@@ -1,0 +1,67 @@
+//! The Design tab in the built page.
+
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::page::{Page, Theme};
+
+/// Longest frame (ms, logic and layout) while a file is read: nobody notices a quarter of a second once.
+const LONGEST_FRAME: f64 = 250.0;
+
+/// Drops a file of so many rows of time and voltage on the page.
+const DROP: &str = "
+    const rows = ['time [ms],voltage [V]'];
+    for (let i = 0; i < arguments[0]; i += 1) rows.push(`${(i * 0.01).toFixed(2)},${(20 * Math.sin(i * 1e-4)).toFixed(4)}`);
+    const data = new DataTransfer();
+    data.items.add(new File([rows.join('\\n')], 'run.csv', { type: 'text/csv' }));
+    const drop = new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true });
+    document.getElementById('canvas').dispatchEvent(drop);
+";
+
+fn click(page: &mut Page, label: &str) {
+    let control = page.find(label, &[]);
+    page.click(control.at(0.5, 0.5));
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn a_million_measured_rows_open_while_the_page_goes_on() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    let count = |page: &Page| page.frames()["count"].as_u64().unwrap_or_default() as usize;
+    let before = count(&page);
+    page.script_with(DROP, vec![Value::from(1_000_000)]);
+    page.find("1000000 rows read", &[]);
+    let drawn = count(&page) - before;
+    let frames = page.frames();
+    let times = frames["cpu_ms"].as_array().into_iter().flatten().rev().take(drawn).filter_map(Value::as_f64);
+    let longest = times.fold(0.0, f64::max);
+    println!("a million rows: {drawn} frames, the longest {longest:.1} ms");
+    page.screenshot("design-measured");
+    assert!(longest < LONGEST_FRAME, "a frame took {longest} ms");
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn a_device_out_of_its_limits_is_called_unsafe_and_the_search_finds_a_better_one() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    click(&mut page, "Design");
+    page.find("Limits: safe", &[]);
+    let json = r#"{"scenario":{"parameters":{"alpha":1e-4,"beta":0.01,"omega":8.0969}},"tab":"design",
+        "design":{"limits":{"voltage":[20.0,20.0]},"watched":"peak"}}"#;
+    page.call("load", json).expect("a view");
+    page.find("Limits: unsafe", &[]);
+    std::thread::sleep(Duration::from_secs(6));
+    page.screenshot("design-unsafe");
+    click(&mut page, "Search");
+    click(&mut page, "Find the best within the limits");
+    page.find("Use it", &[]);
+    std::thread::sleep(Duration::from_secs(20));
+    page.screenshot("design-found");
+    click(&mut page, "Use it");
+    let state = page.wait_until("another device", |state| state["view"]["scenario"]["device"].is_object());
+    assert_ne!(state["view"]["scenario"]["parameters"]["kappa"], 1e-6);
+    page.find("Limits: safe", &[]);
+    page.close();
+}
