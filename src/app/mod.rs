@@ -6,6 +6,7 @@
 #[cfg(target_arch = "wasm32")]
 pub mod bridge;
 pub mod fonts;
+pub mod link;
 pub mod theme;
 pub mod view;
 pub mod widgets;
