@@ -15,11 +15,15 @@ use crate::jobs::study::Study as _;
 use crate::jobs::study::curves::PARAMETERS;
 use crate::model::Parameter;
 
+/// Least room for the vertical choice with its label.
+const PAIR_WIDTH: f32 = 190.0;
+
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.curves.study() {
         Some(study) if !study.finished() => format!("tracing, {} so far", study.curves().len()),
         Some(study) if study.curves().is_empty() => "no bifurcations in this window".to_owned(),
+        Some(study) if study.curves().len() == 1 => "1 curve".to_owned(),
         Some(study) => format!("{} curves", study.curves().len()),
         None => String::new(),
     };
@@ -38,6 +42,9 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 6.0;
         ui.label(egui::RichText::new("across").small().color(weak));
         chips(ui, "Horizontal parameter", &mut x, &choices);
+        if ui.available_size_before_wrap().x < PAIR_WIDTH {
+            ui.end_row();
+        }
         ui.label(egui::RichText::new("up").small().color(weak));
         chips(ui, "Vertical parameter", &mut y, &choices);
     });

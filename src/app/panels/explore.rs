@@ -10,8 +10,9 @@ use crate::app::view::Panel;
 
 /// Space between cards.
 pub(super) const GAP: f32 = 10.0;
-/// Least height of a plot's card.
+/// Least height of a plot's card, and where it stands alone in its row: its choices then take several rows.
 const LEAST_HEIGHT: f32 = 270.0;
+const LEAST_HEIGHT_ALONE: f32 = 350.0;
 /// Width from which two cards stand side by side.
 const TWO_COLUMNS: f32 = 640.0;
 
@@ -26,7 +27,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 /// These panels side by side, or the one of them that fills the page.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui, panels: &[Panel]) {
     if let Some(panel) = context.view.enlarged.filter(|panel| panels.contains(panel)) {
-        let height = ui.available_height().max(LEAST_HEIGHT);
+        let height = ui.available_height().max(LEAST_HEIGHT_ALONE);
         place(ui, ui.available_width(), height, &mut |ui| draw(context, ui, panel));
         return;
     }
@@ -38,7 +39,8 @@ pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], draw: &mut dyn FnMut(&mut Ui, &T
     let columns = if ui.available_width() >= TWO_COLUMNS { 2 } else { 1 };
     let rows = cards.len().div_ceil(columns);
     let width = ((ui.available_width() - GAP * (columns - 1) as f32) / columns as f32).floor();
-    let height = ((ui.available_height() - GAP * (rows - 1) as f32) / rows as f32).floor().max(LEAST_HEIGHT);
+    let least = if columns == 1 { LEAST_HEIGHT_ALONE } else { LEAST_HEIGHT };
+    let height = ((ui.available_height() - GAP * (rows - 1) as f32) / rows as f32).floor().max(least);
     for (index, row) in cards.chunks(columns).enumerate() {
         if index > 0 {
             ui.add_space(GAP - ui.spacing().item_spacing.y);

@@ -12,13 +12,15 @@ use crate::dynamics::sweep::Dwell;
 use crate::model::Parameter;
 
 /// The parameters that can be swept, with their symbols.
-const PARAMETERS: [(Parameter, &str); 8] = [
+const PARAMETERS: [(Parameter, &str); 10] = [
     (Parameter::Omega, "ω"),
     (Parameter::Beta, "β"),
     (Parameter::Alpha, "α"),
     (Parameter::D, "d"),
     (Parameter::C0, "c₀"),
+    (Parameter::H, "h"),
     (Parameter::Eta, "η"),
+    (Parameter::C, "c"),
     (Parameter::Kappa, "κ"),
     (Parameter::Theta, "θ"),
 ];
@@ -55,11 +57,7 @@ pub(super) fn title(parameter: Parameter) -> (&'static str, &'static str) {
         Parameter::Kappa => "load conductance",
         Parameter::Theta => "coupling",
     };
-    let symbol = match parameter {
-        Parameter::H => "h",
-        Parameter::C => "c",
-        _ => PARAMETERS.iter().find(|(other, _)| *other == parameter).map_or("", |(_, symbol)| symbol),
-    };
+    let symbol = PARAMETERS.iter().find(|(other, _)| *other == parameter).map_or("", |(_, symbol)| symbol);
     (name, symbol)
 }
 
@@ -92,7 +90,11 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
         ui.add_space(4.0);
         let range = questions::sweep_range(context.view, context.session);
         if wide {
-            ui.columns(2, |columns| ends(columns, &mut sweep, range));
+            let usual = std::mem::replace(&mut ui.spacing_mut().item_spacing.x, 28.0);
+            ui.columns(2, |columns| {
+                columns.iter_mut().for_each(|column| column.spacing_mut().item_spacing.x = usual);
+                ends(columns, &mut sweep, range);
+            });
         } else {
             ends(std::slice::from_mut(ui), &mut sweep, range);
         }

@@ -9,6 +9,9 @@ use crate::app::{fonts, theme};
 use crate::model::materials::TABLE_2;
 use crate::model::{Device, ElectricalScaling, Parameter};
 
+/// Width below which columns stand closer together.
+const NARROW: f32 = 400.0;
+
 /// Symbols of the ten numbers, in the order of [`Parameter::ALL`].
 const SYMBOLS: [&str; 10] = ["α", "β", "ω", "c_0", "d", "h", "η", "c", "κ", "θ"];
 /// Width from which the two columns stand side by side.
@@ -69,8 +72,9 @@ fn heading(ui: &mut Ui, texts: &[&str]) {
 }
 
 fn table(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui)) {
+    let gap = if ui.available_width() < NARROW { 14.0 } else { 26.0 };
     egui::ScrollArea::horizontal().id_salt(name).show(ui, |ui| {
-        Grid::new(name).num_columns(2).spacing([26.0, 5.0]).show(ui, contents);
+        Grid::new(name).num_columns(2).spacing([gap, 5.0]).show(ui, contents);
     });
 }
 
@@ -96,12 +100,13 @@ fn device(ui: &mut Ui) {
         ("T", "unit of time", d.time_unit(), "s"),
     ];
     table(ui, "device", |ui| {
-        heading(ui, &["symbol", "meaning", "value", "unit"]);
+        // The meaning last: on a phone it may reach beyond the edge.
+        heading(ui, &["symbol", "value", "unit", "meaning"]);
         for (name, meaning, number, unit) in rows {
             symbol(ui, name);
-            ui.label(meaning);
             value(ui, number);
             ui.label(unit);
+            ui.label(meaning);
             ui.end_row();
         }
     });

@@ -1,11 +1,15 @@
 //! The bar above the plots that says in words what they show.
 
-use egui::{RichText, Ui};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Align, RichText, Ui};
 
 use super::Context;
 use crate::app::reading::{Reading, Tone};
 use crate::app::session::Status;
 use crate::app::{fonts, theme};
+
+/// Between texts of a line.
+const SEPARATOR: &str = "  ·  ";
 
 /// Draws the bar.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -34,32 +38,21 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             ui.label(RichText::new(text).color(tokens.danger));
             return;
         }
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 10.0;
-            ui.label(
-                RichText::new(&reading.headline).font(fonts::semibold(theme::size::HEADING)).color(colour),
-            );
-            separated(ui, &reading.facts, |text| RichText::new(text).color(tokens.text));
-        });
+        ui.spacing_mut().item_spacing.y = 6.0;
+        let format =
+            |font, color| TextFormat { font_id: font, color, valign: Align::Center, ..Default::default() };
+        let mut line = LayoutJob::default();
+        line.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
+        let facts = format(fonts::regular(theme::size::BODY), tokens.text);
+        line.append(&reading.facts.join(SEPARATOR), 12.0, facts);
+        ui.label(line);
         if !reading.remarks.is_empty() {
-            ui.horizontal_wrapped(|ui| {
-                ui.spacing_mut().item_spacing.x = 8.0;
-                separated(ui, &reading.remarks, |text| RichText::new(text).small().color(tokens.text_weak));
-            });
+            let remarks = reading.remarks.join(SEPARATOR);
+            ui.label(RichText::new(remarks).small().color(tokens.text_weak));
         }
     });
     let rect = drawn.response.rect;
     let stripe = egui::Rect::from_min_max(rect.min, egui::pos2(rect.left() + 5.0, rect.bottom()));
     let rounding = egui::CornerRadius { nw: theme::radius::CARD, sw: theme::radius::CARD, ne: 0, se: 0 };
     ui.painter().rect_filled(stripe, rounding, colour);
-}
-
-/// Texts with a middle dot between them.
-fn separated(ui: &mut Ui, texts: &[String], style: impl Fn(String) -> RichText) {
-    for (i, text) in texts.iter().enumerate() {
-        if i > 0 {
-            ui.label(style("·".to_owned()));
-        }
-        ui.label(style(text.clone()));
-    }
 }

@@ -35,10 +35,18 @@ pub fn tabs<T: PartialEq + Copy>(ui: &mut Ui, selected: &mut T, choices: &[(T, &
 
 /// A segmented selector for a few short choices; `name` is for screen readers. Returns whether the choice changed.
 ///
-/// Where the row is too narrow it breaks into several.
+/// Where there is no room in a row that wraps it begins the next one, and where a row is too narrow it breaks into
+/// several.
 pub fn chips<T: PartialEq + Copy>(ui: &mut Ui, name: &str, selected: &mut T, choices: &[(T, &str)]) -> bool {
     let before = *selected;
     let tokens = theme::tokens(ui);
+    let widths = choices.iter().map(|(choice, label)| {
+        layout(ui, label, *choice == *selected, theme::size::SMALL + 0.5).size().x + 20.0
+    });
+    let begun = ui.cursor().left() > ui.max_rect().left() + 1.0;
+    if begun && ui.layout().main_wrap() && widths.sum::<f32>() > ui.available_size_before_wrap().x {
+        ui.end_row();
+    }
     let background = ui.painter().add(egui::Shape::Noop);
     let row = ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(2.0, 2.0);

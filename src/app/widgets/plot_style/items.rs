@@ -16,6 +16,8 @@ pub fn series<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [P
     };
     for run in finite_runs(curve) {
         let line = Line::new(name, PlotPoints::Borrowed(run)).color(colour).width(width).style(style);
+        // The bands that egui_plot makes of dense lines overshoot steep peaks.
+        let line = line.allow_band(false);
         plot.line(line.allow_hover(kind != Series::Ghost));
     }
 }
@@ -56,7 +58,7 @@ pub fn envelope(plot: &mut PlotUi<'_>, kind: Series, name: &str, xs: &[f64], low
     for edge in [&low, &high] {
         let curve: PlotPoints<'_> = xs.iter().zip(edge).map(|(x, y)| [*x, *y]).collect();
         let width = if kind == Series::Ghost { 0.8 } else { 1.2 };
-        plot.line(Line::new(name, curve).color(colour).width(width).allow_hover(false));
+        plot.line(Line::new(name, curve).color(colour).width(width).allow_band(false).allow_hover(false));
     }
 }
 
