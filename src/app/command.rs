@@ -33,6 +33,14 @@ pub(super) enum Command {
     MoveBeam(bool),
     /// Take the message away.
     DismissNotice,
+    /// Take the last step back.
+    Undo,
+    /// Take it again.
+    Redo,
+    /// Save what is in view as a file.
+    SaveFile,
+    /// Ask for a file to open.
+    OpenFile,
 }
 
 /// The commands of a frame.

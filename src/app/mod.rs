@@ -19,12 +19,15 @@ mod comparison;
 pub mod crew;
 mod curves;
 mod figures;
+mod history;
 mod map;
 mod panels;
 mod questions;
 mod reading;
 mod report;
 mod session;
+pub mod sharing;
+mod steps;
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -35,6 +38,7 @@ use command::{Command, Commands};
 use crew::Crew;
 use panels::Context;
 use session::{Session, Status};
+use sharing::Errand;
 use view::{MapWindow, Tab, View};
 
 /// Width of the left column, and page width below which the columns are stacked.
@@ -47,6 +51,11 @@ pub struct App {
     session: Session,
     crew: Rc<RefCell<Crew>>,
     notice: Option<String>,
+    history: history::History<steps::Moment>,
+    /// The page's own address, without a fragment; empty outside a browser.
+    address: String,
+    /// What the browser is to do.
+    errands: Vec<Errand>,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool)>,
 }
@@ -58,7 +67,9 @@ impl App {
         let (view, notice) = View::restore(stored);
         let mut session = Session::default();
         session.ask(&view.scenario);
-        let mut app = Self { view, session, crew, notice, styled: None };
+        let history = history::History::default();
+        let (address, errands) = (String::new(), Vec::new());
+        let mut app = Self { view, session, crew, notice, history, address, errands, styled: None };
         app.style(context);
         app
     }
@@ -99,11 +110,16 @@ impl App {
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
         let mut commands = Commands::new();
+        let hand = steps::hand(ui.ctx());
+        self.history.begin_frame(hand);
+        steps::shortcuts(ui.ctx(), &mut commands);
         let crew = self.crew.borrow();
         let mut context = Context {
             view: &self.view,
             session: &self.session,
             studies: &crew.studies,
+            address: &self.address,
+            steps: self.history.can(),
             commands: &mut commands,
         };
         draw(&mut context, self.notice.as_deref(), ui);
@@ -112,7 +128,7 @@ impl App {
             return;
         }
         for command in commands {
-            self.carry_out(command);
+            self.step(command, hand);
         }
         self.follow();
         ui.ctx().request_repaint();
@@ -136,6 +152,10 @@ impl App {
             Command::SetProjector(large) => self.view.projector = large,
             Command::MoveBeam(moves) => self.view.beam_moves = moves,
             Command::DismissNotice => self.notice = None,
+            Command::Undo => self.undo(),
+            Command::Redo => self.redo(),
+            Command::SaveFile => self.save_file(),
+            Command::OpenFile => self.errands.push(Errand::Open),
         }
     }
 
@@ -194,9 +214,7 @@ impl App {
     /// One line that says what is wrong; nothing changes then.
     pub fn load_json(&mut self, json: &str) -> Result<(), String> {
         let view = View::read(json, &self.view)?;
-        self.view = View { scenario: self.view.scenario.clone(), ..view.clone() };
-        self.show(view.scenario);
-        self.follow();
+        self.replace(view, true);
         Ok(())
     }
 

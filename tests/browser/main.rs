@@ -4,6 +4,7 @@ mod agreement;
 mod driver;
 mod page;
 mod server;
+mod share;
 mod stability;
 
 use std::{collections::BTreeSet, env, fs, io::Write as _, thread::sleep, time::Duration};

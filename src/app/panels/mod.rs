@@ -16,6 +16,7 @@ mod phase_plane;
 pub(super) mod phase_portrait;
 pub(super) mod poincare_map;
 pub(super) mod response;
+mod share;
 pub(super) mod spectrum;
 pub(super) mod stability;
 pub(super) mod stability_map;
@@ -37,6 +38,10 @@ pub(super) struct Context<'a> {
     pub view: &'a View,
     pub session: &'a Session,
     pub studies: &'a Studies,
+    /// The page's own address, without a fragment.
+    pub address: &'a str,
+    /// Whether there is a step to take back, and one to take again.
+    pub steps: (bool, bool),
     pub commands: &'a mut Commands,
 }
 

@@ -2,14 +2,14 @@
 
 use egui::Ui;
 
-use super::Context;
+use super::{Context, share};
 use crate::app::command::Command;
 use crate::app::session::Status;
 use crate::app::view::Tab;
 use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, tabs};
 use crate::app::{fonts, theme};
 
-/// Width below which the switches move under the tabs.
+/// Width below which the tabs move under the switches.
 const NARROW: f32 = 560.0;
 
 /// The tabs can be pushed aside where there is no room for all of them; a bar would hide them.
@@ -24,7 +24,9 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             ui.horizontal(|ui| {
                 title(ui);
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    ui.spacing_mut().item_spacing.x = 2.0;
                     switches(context, ui);
+                    share::buttons(context, ui);
                     status(context, ui);
                 });
             });
@@ -39,6 +41,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             choose_tab(context, ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 switches(context, ui);
+                share::buttons(context, ui);
                 ui.add_space(6.0);
                 status(context, ui);
             });
