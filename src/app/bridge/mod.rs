@@ -108,8 +108,9 @@ fn change(with: impl FnOnce(&mut App, &mut storage::Keeper)) {
 /// Shows what the address asks for.
 fn open_address() {
     change(|app, keeper| {
-        app.open_link(&address::fragment());
-        keeper.opened(app.fragment());
+        let fragment = address::fragment();
+        app.open_link(&fragment);
+        keeper.opened((!fragment.is_empty()).then(|| app.fragment()));
     });
 }
 

@@ -38,9 +38,9 @@ impl Keeper {
         self.touched = true;
     }
 
-    /// Says that a link was opened, and how the app would write it.
-    pub(super) fn opened(&mut self, link: String) {
-        self.opened = Some(link);
+    /// Says whether the address holds a link, and how the app would write it.
+    pub(super) fn opened(&mut self, link: Option<String>) {
+        self.opened = link;
     }
 
     /// Called once a frame.

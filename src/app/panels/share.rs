@@ -39,28 +39,30 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut Ui) {
             context.commands.push(command);
         }
     }
-    let address = context.address;
     let popup = Popup::from_toggle_button_response(&button)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name("Share");
-    if popup.is_open() || memory.large {
-        let view = context.view;
-        let plain = View::default();
-        let looks = if memory.looks { view } else { &plain };
-        let link = format!("{address}#{}", link::write(&view.clone().with_looks_of(looks)));
-        popup.show(|ui| popover(context, ui, &link, &mut memory));
-        if memory.large {
-            large_code(ui, &link, &mut memory);
-        }
-        ui.data_mut(|data| data.insert_temp(id, memory));
+    popup.show(|ui| popover(context, ui, &mut memory));
+    if memory.large {
+        large_code(ui, &link(context, &memory), &mut memory);
     }
+    ui.data_mut(|data| data.insert_temp(id, memory));
     if ui.input(|input| !input.raw.hovered_files.is_empty()) {
         announce_drop(ui);
     }
 }
 
-fn popover(context: &mut Context<'_>, ui: &mut Ui, link: &str, memory: &mut Memory) {
+/// The link to what is in view.
+fn link(context: &Context<'_>, memory: &Memory) -> String {
+    let view = context.view.clone();
+    let view = if memory.looks { view } else { view.with_looks_of(&View::default()) };
+    format!("{}#{}", context.address, link::write(&view))
+}
+
+fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
     let tokens = theme::tokens(ui);
+    let link = link(context, memory);
+    let link = link.as_str();
     ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
     ui.label(RichText::new("Share this view").font(fonts::semibold(theme::size::TITLE)));
     let mut shown = link;

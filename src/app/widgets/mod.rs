@@ -17,7 +17,7 @@ pub mod tabs;
 #[cfg(test)]
 mod harness;
 
-pub use badge::{BadgeKind, badge};
+pub use badge::{BadgeKind, badge, sign};
 pub use beam_view::BeamView;
 pub use card::{Card, CardResponse};
 pub use fold::Fold;
