@@ -14,7 +14,7 @@ pub const VERSION: u32 = 2;
 pub const END_TIME: (f64, f64) = (1.0, 5000.0);
 
 /// Which truncation is used.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(default, deny_unknown_fields)]
 pub struct ModelChoice {
     /// Number of modes N, 1 to 8.
@@ -41,7 +41,7 @@ impl ModelChoice {
 }
 
 /// What a page shows: numbers, model, start and duration.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(default, deny_unknown_fields)]
 pub struct Scenario {
     /// Version of this format.

@@ -15,7 +15,9 @@ const LINES: f64 = 0.99;
 const NAMED: usize = 4;
 
 /// A way of looking at a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
     /// How the run ended.
@@ -33,7 +35,7 @@ pub enum Source {
 }
 
 /// One piece of evidence.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Evidence {
     /// Where it comes from.
     pub source: Source,

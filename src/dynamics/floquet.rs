@@ -12,7 +12,9 @@ const DEFLATION: f64 = 4e-16;
 const REAL: f64 = 1e-9;
 
 /// How a periodic motion loses its stability, by the multiplier that leaves the unit circle first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Instability {
     /// Through +1: the motion meets another one and both end (or exchange stability, in a symmetric system).

@@ -60,7 +60,7 @@ pub enum Sign {
 }
 
 /// The two largest Lyapunov exponents of the stroboscopic map.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Exponent {
     /// The largest exponent, per dimensionless time.
     pub value: f64,

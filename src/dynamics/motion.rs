@@ -11,7 +11,7 @@ use super::{IntegrationError, Search};
 use crate::model::{Demand, ReducedSystem};
 
 /// The class of a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Motion {
     /// It repeats: there is a stable periodic motion that the run has arrived at, or approaches.
@@ -41,7 +41,9 @@ pub enum Motion {
 }
 
 /// Why a motion has no class.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Undecided {
     /// Neighbours converge, so a periodic motion is approached, but the run has not come near it.
@@ -149,7 +151,7 @@ pub struct Reached {
 }
 
 /// The part of [`Reached`] that a chart stores.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Cell {
     /// The class.
     pub motion: Motion,

@@ -6,7 +6,7 @@ use super::OrbitError;
 use crate::model::{ModelError, Parameter, ReducedSystem};
 
 /// One number that changes, with its range, whose width serves as its unit.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Axis {
     /// Which number.
     pub parameter: Parameter,
@@ -34,7 +34,7 @@ impl Axis {
 }
 
 /// A rectangle in the plane of two parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(try_from = "[Axis; 2]", into = "[Axis; 2]")]
 pub struct Plane {
     axes: [Axis; 2],

@@ -21,7 +21,7 @@ const SAME_VOLTAGE: f64 = 0.05;
 const CHUNK: usize = 32;
 
 /// A motion with what it is recognised by.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Signature {
     /// Class, means and extremes.
     pub cell: Cell,

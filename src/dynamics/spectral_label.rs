@@ -40,7 +40,7 @@ const COMBINATIONS: [(i32, i32, i32); 16] = [
 ];
 
 /// What a line of a spectrum is.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Label {
     /// numerator / denominator of the excitation's frequency, in lowest terms.

@@ -54,7 +54,7 @@ fn fourier_transform(length: usize) -> Arc<dyn Fft<f64>> {
 }
 
 /// A line of a spectrum.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Line {
     /// Angular frequency (dimensionless).
     pub omega: f64,

@@ -15,7 +15,7 @@ use crate::model::{ModelError, Parameter, ReducedSystem, RestForce};
 use crate::scenario::Scenario;
 
 /// How long each value is held, in excitation periods.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Dwell {
     /// Periods thrown away first, for the transient.
     pub discarded: usize,
@@ -52,7 +52,7 @@ impl Dwell {
 }
 
 /// The motion at one value.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct SweepPoint {
     /// The parameter's value.
     pub value: f64,

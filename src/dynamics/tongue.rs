@@ -17,7 +17,7 @@ use crate::model::{Parameter, ReducedSystem, RestForce};
 use crate::theory::{CoupledModes, Resonance};
 
 /// The part of the plane in which a tongue is traced.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Window {
     /// Largest distance of omega from the resonance's centre (dimensionless).
     pub span: f64,
@@ -33,7 +33,7 @@ impl Default for Window {
 }
 
 /// A point of a tongue's border.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct TonguePoint {
     /// Excitation frequency (dimensionless).
     pub omega: f64,
@@ -42,7 +42,7 @@ pub struct TonguePoint {
 }
 
 /// Why a flank is not followed any further.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(rename_all = "snake_case")]
 pub enum FlankEnd {
     /// The window's border.
@@ -58,7 +58,7 @@ pub enum FlankEnd {
 }
 
 /// The border of a tongue.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Tongue {
     /// How the forced motion becomes unstable across it.
     pub instability: Instability,

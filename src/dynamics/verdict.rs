@@ -24,7 +24,7 @@ const TRANSIENT: f64 = 1e-3;
 const FORCE_ERROR: f64 = 0.1;
 
 /// A Floquet multiplier.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Multiplier {
     /// Real part.
     pub re: f64,
@@ -41,7 +41,7 @@ impl From<Complex<f64>> for Multiplier {
 }
 
 /// The forced motion at the same parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct ForcedSummary {
     /// Its largest multiplier over one excitation period.
     pub multiplier: Multiplier,
@@ -71,7 +71,9 @@ impl ForcedSummary {
 }
 
 /// Which other start leads to another motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum OtherStart {
     /// On the forced motion, which is stable.
@@ -81,7 +83,7 @@ pub enum OtherStart {
 }
 
 /// Another attracting motion at the same parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Coexisting {
     /// The start that leads there.
     pub start: OtherStart,
@@ -104,7 +106,7 @@ impl fmt::Display for Coexisting {
 }
 
 /// What to know before relying on a verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Warning {
     /// The run ends away from the periodic motion it approaches.
@@ -193,7 +195,7 @@ pub fn force_law_warning(system: &ReducedSystem, tip_min: f64) -> Option<Warning
 }
 
 /// What is known of the motion that a start leads to.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Verdict {
     /// Its class; undecided when the evidence disagrees.
     pub motion: Motion,

@@ -25,7 +25,7 @@ const TORUS_ORDER: i32 = 8;
 const DENOMINATORS: u32 = 8;
 
 /// A line of the voltage's spectrum.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Peak {
     /// Angular frequency (dimensionless).
     pub omega: f64,

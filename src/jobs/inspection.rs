@@ -14,7 +14,7 @@ const SPECTRUM_POINTS: usize = 1200;
 const BEYOND_PEAKS: f64 = 1.3;
 
 /// A periodic motion by its multipliers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Multipliers {
     /// Its period in excitation periods.
     pub periods: usize,
@@ -30,7 +30,7 @@ impl From<&Orbit> for Multipliers {
 }
 
 /// The verdict and its evidence.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Inspection {
     /// The verdict.
     pub verdict: Verdict,

@@ -14,7 +14,9 @@ const MOST_VELOCITY: f64 = 1e4;
 const MOST_VOLTAGE: f64 = 1e6;
 
 /// What changes along a side of a chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Coordinate {
     /// One of the ten numbers.
@@ -127,7 +129,7 @@ pub fn at_place(
 }
 
 /// The plane of two coordinates through the numbers and the start of a scenario.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct MotionPlane {
     /// Everything that the coordinates do not change.
     pub scenario: Scenario,

@@ -18,7 +18,7 @@ const DOUBLINGS: usize = 2;
 const SAME: f64 = 1e-5;
 
 /// A point of a response curve.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct ResponsePoint {
     /// The parameter's value.
     pub value: f64,
@@ -35,7 +35,7 @@ pub struct ResponsePoint {
 }
 
 /// A change of stability on a response curve.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Change {
     /// How.
     pub kind: Instability,
@@ -44,7 +44,7 @@ pub struct Change {
 }
 
 /// A branch of periodic motions.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct ResponseCurve {
     /// Period in excitation periods.
     pub periods: usize,

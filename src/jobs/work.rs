@@ -1,4 +1,5 @@
-//! Pieces of work: what a study hands out, and what comes back. A worker of the page gets them as JSON.
+//! Pieces of work: what a study hands out, and what comes back. Page and workers send them to each other in a plain
+//! binary form, which costs the page a quarter of the code that JSON would.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,8 +17,7 @@ use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
 /// A piece of work, done within a fraction of a second unless named otherwise.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
 pub enum Work {
     /// Any request of the native command; it may take long.
     Answer {
@@ -99,8 +99,7 @@ pub enum Work {
 }
 
 /// What a piece of work found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
 pub enum Finding {
     /// The answer as JSON.
     Answer(String),
@@ -130,7 +129,7 @@ pub enum Finding {
 }
 
 /// Largest multipliers along a column of a chart, absent from where the forced motion cannot be followed.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Column {
     /// Modulus of each (dimensionless).
     pub modulus: Vec<Option<f64>>,

@@ -8,7 +8,9 @@ use super::materials::Ceramic;
 use super::{Dimension, ModelError, ParameterSet};
 
 /// How the circuit's numbers are made dimensionless.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum ElectricalScaling {
     /// As the paper's Eq. (8) prints it, with L^2; gives the paper's numbers from the paper's device.
@@ -47,7 +49,7 @@ impl ElectricalScaling {
 }
 
 /// A harvester and its excitation in SI units (Table 1 and section 3.2).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(default, deny_unknown_fields)]
 pub struct Device {
     /// Residual flux density rho (T).

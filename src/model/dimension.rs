@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::{Device, ModelError};
 
 /// Which dimension of a [`Device`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Dimension {
     /// Residual flux density rho.

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::{Equilibrium, Magnet, ModelError};
 
 /// Which R(s) the tip feels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum ForceLaw {
     /// c_2 s^2, the paper's truncation (section 3).

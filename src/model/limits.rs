@@ -69,7 +69,9 @@ impl Check {
 }
 
 /// What a motion asks of the device.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 pub struct Demand {
     /// Largest |v| (V).
     pub v_peak: f64,
@@ -80,7 +82,7 @@ pub struct Demand {
 }
 
 /// The limits of a device.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(default, deny_unknown_fields)]
 pub struct Limits {
     /// Lower and upper end of the range published for the largest voltage (V); none when no ceramic is chosen, or

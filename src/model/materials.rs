@@ -47,7 +47,9 @@ pub const TABLE_2: [Material; 9] = [
 ];
 
 /// A row of Table 2, as it is stored and asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Ceramic {
     /// APC 840.

@@ -8,7 +8,7 @@ use super::ModelError;
 
 /// The ten dimensionless numbers as typed, loaded or dragged: not yet checked. Missing fields of a file or a
 /// request take the paper's values.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(default, deny_unknown_fields)]
 pub struct ParameterSet {
     /// Kelvin-Voigt damping (dimensionless).
@@ -52,7 +52,9 @@ impl Default for ParameterSet {
 }
 
 /// Which of the ten numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Parameter {
     /// Damping.

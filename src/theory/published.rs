@@ -21,7 +21,9 @@ use super::steady_state::modal_amplitude;
 use crate::model::{Mode, ReducedSystem};
 
 /// The secondary resonances of the paper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Resonance {
     /// Combination resonance, omega near omega_1 + omega_2 (section 3).

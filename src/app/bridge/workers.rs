@@ -4,7 +4,8 @@
 use std::cell::RefCell;
 use std::rc::{Rc, Weak};
 
-use serde::{Deserialize, Serialize};
+use js_sys::Uint8Array;
+use nanoserde::{DeBin, SerBin};
 use wasm_bindgen::prelude::{Closure, wasm_bindgen};
 use wasm_bindgen::{JsCast as _, JsValue};
 use web_sys::{MessageEvent, Worker};
@@ -16,26 +17,32 @@ use crate::jobs::work::{Finding, Work};
 const COUNTS: (usize, usize) = (2, 8);
 
 /// A piece on its way to a worker, and what comes back.
-#[derive(Serialize, Deserialize)]
+#[derive(SerBin, DeBin)]
 struct Order {
     number: u64,
     work: Work,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(SerBin, DeBin)]
 struct Report {
     number: u64,
-    finding: Result<Finding, String>,
+    finding: Option<Finding>,
+    /// Why there is no finding.
+    error: String,
 }
 
-/// Inside a worker: carries out an order and reports, both as JSON.
+/// Inside a worker: carries out an order and reports, in the binary form of messages.
 #[wasm_bindgen]
-pub fn carry_out(order: &str) -> String {
-    let report = match serde_json::from_str::<Order>(order) {
-        Ok(Order { number, work }) => Report { number, finding: work.carry_out() },
-        Err(error) => Report { number: 0, finding: Err(error.to_string()) },
+pub fn carry_out(order: &[u8]) -> Vec<u8> {
+    let (number, finding) = match Order::deserialize_bin(order) {
+        Ok(Order { number, work }) => (number, work.carry_out()),
+        Err(error) => (0, Err(error.to_string())),
     };
-    serde_json::to_string(&report).unwrap_or_default()
+    let (finding, error) = match finding {
+        Ok(finding) => (Some(finding), String::new()),
+        Err(error) => (None, error),
+    };
+    Report { number, finding, error }.serialize_bin()
 }
 
 /// What the crew's messages lead to.
@@ -82,9 +89,10 @@ impl WebWorkers {
         let (crew, taken) = (self.crew.clone(), Rc::clone(&self.taken));
         let on_message = Closure::new(move |event: MessageEvent| {
             let Some(crew) = crew.upgrade() else { return };
-            let text = event.data().as_string().unwrap_or_default();
-            if let Ok(Report { number: order, finding }) = serde_json::from_str(&text) {
-                crew.borrow_mut().returned(number, order, finding);
+            let message =
+                event.data().dyn_into::<Uint8Array>().map(|bytes| bytes.to_vec()).unwrap_or_default();
+            if let Ok(report) = Report::deserialize_bin(&message) {
+                crew.borrow_mut().returned(number, report.number, report.finding.ok_or(report.error));
             }
             taken(&crew);
         });
@@ -111,10 +119,10 @@ impl Workers for WebWorkers {
 
     fn give(&mut self, worker: usize, number: u64, work: &Work) {
         let order = Order { number, work: work.clone() };
-        let text = serde_json::to_string(&order).unwrap_or_default();
+        let message = Uint8Array::from(order.serialize_bin().as_slice());
         if let Some(Some(hand)) = self.hands.get(worker) {
             // A worker that cannot be reached is found overdue and replaced.
-            let _ = hand.worker.post_message(&JsValue::from_str(&text));
+            let _ = hand.worker.post_message(&message);
         }
     }
 

@@ -46,6 +46,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             ],
         );
     });
+    ui.add_space(4.0);
 }
 
 /// The choice of the resonance to look at.

@@ -3,13 +3,12 @@
 
 use std::fmt;
 
-use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::Instability;
 
 /// A bifurcation to trace a curve from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Start {
     /// Its kind, the curve's.
     pub kind: Instability,
@@ -22,7 +21,7 @@ pub struct Start {
 }
 
 /// A point of a curve.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct CurvePoint {
     /// The two parameters.
     pub at: [f64; 2],
@@ -34,7 +33,9 @@ pub struct CurvePoint {
 
 /// Bifurcations of codimension two, points in the plane of two parameters (Kuznetsov, "Elements of Applied
 /// Bifurcation Theory", chapter 9).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum SpecialKind {
     /// Two curves of folds meet in a point with a common tangent: three orbits become one.
@@ -77,7 +78,7 @@ impl fmt::Display for SpecialKind {
 }
 
 /// A point of codimension two on a curve.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct SpecialPoint {
     /// What it is.
     pub kind: SpecialKind,
@@ -85,15 +86,14 @@ pub struct SpecialPoint {
     pub at: [f64; 2],
     /// State of the orbit at t = 0, length 2N + 1.
     pub state: Vec<f64>,
-    /// The orbit's multipliers over the curve's period, by descending modulus.
-    #[serde(with = "complex_numbers")]
-    pub multipliers: Vec<Complex<f64>>,
+    /// Real and imaginary part of the orbit's multipliers over the curve's period, by descending modulus.
+    pub multipliers: Vec<[f64; 2]>,
     /// How many points of the curve lie before it.
     pub after: usize,
 }
 
 /// Why a curve is not followed any further.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum CurveEnd {
     /// The window's border.
@@ -115,7 +115,7 @@ pub enum CurveEnd {
 }
 
 /// A curve on which orbits of `periods` excitation periods have a multiplier on the unit circle.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Curve {
     /// In which way.
     pub kind: Instability,
@@ -131,21 +131,6 @@ pub struct Curve {
     pub ends: [CurveEnd; 2],
 }
 
-/// Complex numbers as pairs (re, im).
-mod complex_numbers {
-    use nalgebra::Complex;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub(super) fn serialize<S: Serializer>(values: &[Complex<f64>], to: S) -> Result<S::Ok, S::Error> {
-        values.iter().map(|value| [value.re, value.im]).collect::<Vec<_>>().serialize(to)
-    }
-
-    pub(super) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Vec<Complex<f64>>, D::Error> {
-        let pairs = Vec::<[f64; 2]>::deserialize(from)?;
-        Ok(pairs.into_iter().map(|[re, im]| Complex::new(re, im)).collect())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -153,7 +138,7 @@ mod tests {
     #[test]
     fn a_curve_round_trips_through_json() -> Result<(), serde_json::Error> {
         let (at, state) = ([8.1, 0.01], vec![0.1, -0.2, 0.3]);
-        let multipliers = vec![Complex::new(-1.0, 0.0), Complex::new(0.3, 0.4)];
+        let multipliers = vec![[-1.0, 0.0], [0.3, 0.4]];
         let curve = Curve {
             kind: Instability::PeriodDoubling,
             periods: 1,

@@ -42,7 +42,7 @@ impl Default for Search {
 }
 
 /// A line across a plane along one of its axes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Line {
     /// Which axis, 0 or 1, the line runs along.
     pub along: usize,

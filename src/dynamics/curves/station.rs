@@ -87,7 +87,8 @@ impl Station {
 
     pub(super) fn special(&self, surface: &Surface, kind: SpecialKind, after: usize) -> SpecialPoint {
         let state = surface.family.state(&self.place);
-        SpecialPoint { kind, at: self.at, state, multipliers: self.multipliers.clone(), after }
+        let multipliers = self.multipliers.iter().map(|value| [value.re, value.im]).collect();
+        SpecialPoint { kind, at: self.at, state, multipliers, after }
     }
 
     /// The two parameters.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// An interval of frequency (Hz).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Interval {
     /// Its lower end (Hz).
     pub from: f64,

@@ -20,7 +20,7 @@ const NO_MOTION: f64 = 1e3;
 const BAND_COUNTS: (usize, usize) = (2, 64);
 
 /// What is changed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Variable {
     /// Which number or dimension.
     pub coordinate: Coordinate,
@@ -46,7 +46,7 @@ impl Variable {
 }
 
 /// What is to be good.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(rename_all = "snake_case")]
 pub enum Objective {
     /// Mean power of the motion reached (W).
@@ -72,7 +72,7 @@ pub enum Objective {
 }
 
 /// The question.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct FindQuestion {
     /// The device and everything that is not varied.
     pub scenario: Scenario,
@@ -123,7 +123,7 @@ impl FindQuestion {
 }
 
 /// What is known of a candidate.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Evaluation {
     /// The objective in its unit; `None` without a device or a lasting motion.
     pub value: Option<f64>,

@@ -14,7 +14,7 @@ use crate::scenario::Scenario;
 const RECORD: usize = 512;
 
 /// What a steady motion delivers and what it costs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Harvest {
     /// Root mean square of the voltage (V).
     pub v_rms: f64,
@@ -63,7 +63,7 @@ impl Harvest {
 }
 
 /// The forced motion, which grows out of rest with the excitation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Forced {
     /// What it delivers, whether it is stable or not.
     pub harvest: Harvest,
@@ -74,7 +74,7 @@ pub struct Forced {
 }
 
 /// The motion that the start leads to.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Lasting {
     /// Its class.
     pub motion: Motion,
@@ -83,7 +83,7 @@ pub struct Lasting {
 }
 
 /// Three motions of one device under one excitation.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Operating {
     /// Excitation frequency (Hz).
     pub frequency: f64,

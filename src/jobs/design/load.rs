@@ -14,7 +14,7 @@ use crate::scenario::Scenario;
 use crate::theory::{Source, TheoryError};
 
 /// A motion under one load.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct LoadPoint {
     /// Load resistance (ohm).
     pub resistance: f64,
@@ -129,7 +129,7 @@ pub fn reached_loads(
 }
 
 /// The best frequency under a load.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct BestFrequency {
     /// Load resistance (ohm).
     pub resistance: f64,

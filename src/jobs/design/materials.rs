@@ -39,7 +39,7 @@ pub fn with_ceramic(scenario: &Scenario, ceramic: Ceramic, mode: usize) -> Resul
 }
 
 /// A ceramic on the device.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct MaterialRow {
     /// Which.
     pub ceramic: Ceramic,
@@ -60,7 +60,7 @@ pub struct MaterialRow {
 }
 
 /// The lowest point of a tongue.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Threshold {
     /// Amplitude beta (dimensionless).
     pub beta: f64,

@@ -18,7 +18,7 @@ pub const LAWS: [ForceLaw; 4] =
     [ForceLaw::Quadratic, ForceLaw::Taylor(3), ForceLaw::Taylor(5), ForceLaw::Exact];
 
 /// What is compared.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// Root mean square of the voltage of the motion reached (V).
@@ -32,7 +32,7 @@ pub enum Quantity {
 }
 
 /// An entry of the table.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct TrustEntry {
     /// Number of modes.
     pub modes: usize,

@@ -1,7 +1,5 @@
 //! The bench's pieces of work.
 
-use serde::{Deserialize, Serialize};
-
 use super::DesignError;
 use super::find::{Evaluation, FindQuestion, evaluate};
 use super::harvest::{Operating, operating};
@@ -15,8 +13,7 @@ use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
 /// A piece of work of the bench, done within a second.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
 pub enum DesignWork {
     /// What the device harvests under its own excitation.
     Operating {
@@ -82,8 +79,7 @@ pub enum DesignWork {
 }
 
 /// What it found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
 pub enum DesignFinding {
     /// What the device harvests.
     Operating(Box<Operating>),

@@ -62,7 +62,7 @@ pub struct BasinAnswer {
 }
 
 /// A side of the plane.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Axis {
     /// Name of the component.
     pub component: String,

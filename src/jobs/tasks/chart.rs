@@ -36,7 +36,7 @@ pub struct ChartRequest {
 }
 
 /// What a chart shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// The largest Floquet multiplier of the forced motion.
