@@ -64,11 +64,10 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
     let link = link(context, memory);
     let link = link.as_str();
     ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
-    ui.label(RichText::new("Share this view").font(fonts::semibold(theme::size::TITLE)));
+    let title = ui.label(RichText::new("Link to this view").font(fonts::semibold(theme::size::TITLE)));
     let mut shown = link;
     let field = TextEdit::singleline(&mut shown).desired_width(f32::INFINITY).id_salt("link");
-    let field = ui.add(field);
-    field.widget_info(|| egui::WidgetInfo::text_edit(true, link, link, "Link to this view"));
+    ui.add(field.background_color(tokens.field)).labelled_by(title.id);
     let now = ui.input(|input| input.time);
     let copied = memory.copied.is_some_and(|then| now - then < COPIED);
     ui.horizontal(|ui| {
