@@ -56,28 +56,13 @@ function missing() {
   return null;
 }
 
-// What the app exports, once it runs.
-let app = null;
-
-// Lets the user choose a file of measured data. It stays in the browser.
-function open() {
-  const input = document.createElement("input");
-  input.type = "file";
-  input.accept = ".csv,.txt,.tsv,.dat,text/*";
-  input.addEventListener("change", async () => {
-    const file = input.files?.[0];
-    if (file) app?.import(file.name, new Uint8Array(await file.arrayBuffer()));
-  });
-  input.click();
-}
-
 async function start() {
   const lacking = missing();
   if (lacking) {
     fail("This browser cannot show Harvester Lab", `${lacking} is missing or switched off.`);
     return;
   }
-  app = await import(element("module").href);
+  const app = await import(element("module").href);
   await app.default({ module_or_path: element("wasm").href });
   const keep = () => {
     if (root.dataset.phase === "ready") app.keep();
@@ -98,7 +83,6 @@ window.harvesterShell = Object.freeze({
     if (root.dataset.phase === "loading") root.dataset.phase = "ready";
   },
   fail,
-  open,
   // A worker that runs the page's own module, compiled only once.
   worker: (wasm) => {
     try {

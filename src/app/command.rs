@@ -27,8 +27,6 @@ pub(super) enum Command {
     Adopt(Result<Box<Scenario>, String>),
     /// Begin the search for a design, or end it.
     Find(bool),
-    /// Let the user choose a file of measured data.
-    OpenFile,
     /// Read the file's columns so, or close it.
     Measure(Option<Reading>),
     /// Load a figure of the paper.
@@ -45,6 +43,14 @@ pub(super) enum Command {
     MoveBeam(bool),
     /// Take the message away.
     DismissNotice,
+    /// Take the last step back.
+    Undo,
+    /// Take it again.
+    Redo,
+    /// Save what is in view as a file.
+    SaveFile,
+    /// Ask for a file to open: a scenario, or measured data.
+    OpenFile,
 }
 
 /// The commands of a frame.

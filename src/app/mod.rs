@@ -6,6 +6,7 @@
 #[cfg(target_arch = "wasm32")]
 pub mod bridge;
 pub mod fonts;
+pub mod link;
 pub mod theme;
 pub mod view;
 pub mod widgets;
@@ -19,12 +20,15 @@ mod comparison;
 pub mod crew;
 mod curves;
 mod figures;
+mod history;
 mod map;
 mod panels;
 mod questions;
 mod reading;
 mod report;
 mod session;
+pub mod sharing;
+mod steps;
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -36,6 +40,7 @@ use command::{Command, Commands};
 use crew::Crew;
 use panels::Context;
 use session::{Session, Status};
+use sharing::Errand;
 use view::{MapWindow, Tab, View};
 
 /// Width of the left column, of that with units beside the numbers, and page width below which the columns are stacked.
@@ -50,6 +55,11 @@ pub struct App {
     crew: Rc<RefCell<Crew>>,
     bench: Bench,
     notice: Option<String>,
+    history: history::History<steps::Moment>,
+    /// The page's own address, without a fragment; empty outside a browser.
+    address: String,
+    /// What the browser is to do.
+    errands: Vec<Errand>,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool)>,
 }
@@ -62,7 +72,9 @@ impl App {
         let mut session = Session::default();
         session.ask(&view.scenario);
         let bench = Bench::default();
-        let mut app = Self { view, session, crew, bench, notice, styled: None };
+        let history = history::History::default();
+        let (address, errands) = (String::new(), Vec::new());
+        let mut app = Self { view, session, crew, bench, notice, history, address, errands, styled: None };
         app.style(context);
         app
     }
@@ -102,41 +114,21 @@ impl App {
         crew.hand_out();
     }
 
-    /// Takes a file of measured data, and brings the page that shows it to the front.
-    pub fn import(&mut self, name: &str, text: Vec<u8>) {
-        self.view.tab = Tab::Design;
-        self.view.design.page = view::design::Page::Measured;
-        self.view.enlarged = None;
-        self.bench.measured.open(name, text);
-    }
-
-    /// Takes what was dropped on the page.
-    fn take_dropped(&mut self, ui: &Ui) {
-        let Some(file) = ui.input(|input| input.raw.dropped_files.first().cloned()) else { return };
-        #[cfg(target_arch = "wasm32")]
-        bridge::read_dropped(file);
-        #[cfg(not(target_arch = "wasm32"))]
-        {
-            let name =
-                file.path().file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-            match file.bytes() {
-                Ok(text) => self.import(&name, text),
-                Err(reason) => self.notice = Some(format!("{name} cannot be read: {reason}")),
-            }
-        }
-    }
-
     /// Draws one frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
-        self.take_dropped(ui);
         let mut commands = Commands::new();
+        let hand = steps::hand(ui.ctx());
+        self.history.begin_frame(hand);
+        steps::shortcuts(ui.ctx(), &mut commands);
         let crew = self.crew.borrow();
         let mut context = Context {
             view: &self.view,
             session: &self.session,
             studies: &crew.studies,
             bench: &self.bench,
+            address: &self.address,
+            steps: self.history.can(),
             commands: &mut commands,
         };
         draw(&mut context, self.notice.as_deref(), ui);
@@ -145,7 +137,7 @@ impl App {
             return;
         }
         for command in commands {
-            self.carry_out(command);
+            self.step(command, hand);
         }
         self.follow();
         ui.ctx().request_repaint();
@@ -170,10 +162,6 @@ impl App {
                 let begun = self.crew.borrow_mut().studies.bench.search(question, &self.view);
                 self.bench.refusal = begun.err();
             }
-            Command::OpenFile => {
-                #[cfg(target_arch = "wasm32")]
-                bridge::choose_file();
-            }
             Command::Measure(Some(reading)) => self.bench.measured.read(reading),
             Command::Measure(None) => self.bench.measured = bench::measured::Measured::default(),
             Command::LoadFigure(number) => self.load_figure(number),
@@ -187,11 +175,18 @@ impl App {
             Command::SetProjector(large) => self.view.projector = large,
             Command::MoveBeam(moves) => self.view.beam_moves = moves,
             Command::DismissNotice => self.notice = None,
+            Command::Undo => self.undo(),
+            Command::Redo => self.redo(),
+            Command::SaveFile => self.save_file(),
+            Command::OpenFile => self.errands.push(Errand::Open),
         }
     }
 
     fn show(&mut self, scenario: crate::scenario::Scenario) {
         self.bench.refusal = None;
+        if self.view.scenario.model != scenario.model {
+            self.bench.before = self.view.scenario.model;
+        }
         self.session.ask(&scenario);
         if let Some(boundaries) = &self.session.boundaries {
             self.view.map = boundaries.follow(self.view.map, scenario.parameters.omega);
@@ -246,9 +241,7 @@ impl App {
     /// One line that says what is wrong; nothing changes then.
     pub fn load_json(&mut self, json: &str) -> Result<(), String> {
         let view = View::read(json, &self.view)?;
-        self.view = View { scenario: self.view.scenario.clone(), ..view.clone() };
-        self.show(view.scenario);
-        self.follow();
+        self.replace(view, true);
         Ok(())
     }
 

@@ -1,5 +1,7 @@
 //! Computing what the view asks for, a slice a frame, newest question first.
 
+use std::rc::Rc;
+
 use super::clock::milliseconds;
 use super::comparison::Comparison;
 use super::curves::Curves;
@@ -64,7 +66,7 @@ pub(super) struct Session {
     /// What the Paper tab computes beside the run in view.
     pub comparison: Comparison,
     /// Curves kept for comparison.
-    pub pinned: Option<Box<Shown>>,
+    pub pinned: Option<Rc<Shown>>,
     /// Frames between a question and its answer, the last ones, for the page's own statistics.
     pub delays: std::collections::VecDeque<u64>,
     frame: u64,
@@ -167,7 +169,7 @@ impl Session {
     /// Keeps the present curves as ghosts, or drops them.
     pub(super) fn pin(&mut self, keep: bool) {
         self.pinned = match &self.shown {
-            Some(shown) if keep => Some(Box::new(Shown {
+            Some(shown) if keep => Some(Rc::new(Shown {
                 generation: shown.generation,
                 scenario: shown.scenario.clone(),
                 run: shown.run.clone(),

@@ -8,7 +8,9 @@ use serde_json::Value;
 use self::design::DesignView;
 use super::figures::{self, Figure};
 use crate::dynamics::sweep::Dwell;
-use crate::model::Parameter;
+use crate::jobs::study::curves;
+use crate::jobs::study::sweep::COUNTS;
+use crate::model::{ModelError, Parameter};
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
@@ -215,17 +217,55 @@ impl View {
             return Err("expected an object such as {\"parameters\":{\"omega\":25}}".to_owned());
         }
         let is_view = value.get("scenario").is_some();
-        let describe = |error: serde_path_to_error::Error<serde_json::Error>| {
-            format!("{}: {}", error.path(), error.inner())
-        };
-        let view: Self = if is_view {
-            serde_path_to_error::deserialize(value).map_err(describe)?
+        let view = if is_view {
+            Self::from_value(value)?
         } else {
             let scenario = serde_path_to_error::deserialize(value).map_err(describe)?;
             Self { scenario, ..present.clone() }
         };
-        view.scenario.validate().map_err(|error| error.to_string())?;
+        view.check().map_err(|(_, reason)| reason)?;
         Ok(view)
+    }
+
+    /// A view as JSON, not yet checked.
+    pub(super) fn from_value(value: Value) -> Result<Self, String> {
+        serde_path_to_error::deserialize(value).map_err(describe)
+    }
+
+    /// As JSON.
+    pub(super) fn to_value(&self) -> Value {
+        // By way of text, which is needed anyway: another serialiser would weigh more.
+        serde_json::to_string(self).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
+    }
+
+    /// Checks everything. An error names the part that is wrong, as in JSON, and says why.
+    pub(super) fn check(&self) -> Result<(), (&'static str, String)> {
+        let part = |name| move |error: ModelError| (name, error.to_string());
+        self.scenario.validate().map_err(part("scenario"))?;
+        let SweepView { parameter, range, count, dwell, .. } = self.sweep;
+        if let Some((from, to)) = range {
+            for end in [from, to] {
+                ModelError::check(parameter.field(), end, parameter.range(), "").map_err(part("sweep"))?;
+            }
+        }
+        let (minimum, maximum) = COUNTS;
+        if !(minimum..=maximum).contains(&count) {
+            let field = "sweep.count";
+            return Err(part("sweep")(ModelError::Count { field, value: count, minimum, maximum }));
+        }
+        dwell.validate().map_err(part("sweep"))?;
+        self.design.check().map_err(part("design"))?;
+        let [x, y] = self.plane;
+        if x == y || ![x, y].iter().all(|axis| curves::PARAMETERS.contains(axis)) {
+            let allowed = curves::PARAMETERS.map(Parameter::field).join(", ");
+            return Err(("plane", format!("plane: two different ones of {allowed}")));
+        }
+        Ok(())
+    }
+
+    /// The same, looking like `other`: what suits the room and the eyes, and belongs to no scenario.
+    pub(super) fn with_looks_of(self, other: &Self) -> Self {
+        Self { dark: other.dark, projector: other.projector, beam_moves: other.beam_moves, ..self }
     }
 
     /// What an earlier session stored, and a sentence about it when it cannot be used.
@@ -240,6 +280,11 @@ impl View {
             }
         }
     }
+}
+
+/// One line with the path of the field and what is wrong with it.
+fn describe(error: serde_path_to_error::Error<serde_json::Error>) -> String {
+    format!("{}: {}", error.path(), error.inner())
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ mod design;
 mod driver;
 mod page;
 mod server;
+mod share;
 mod stability;
 
 use std::{collections::BTreeSet, env, fs, io::Write as _, thread::sleep, time::Duration};

@@ -7,7 +7,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use fantoccini::actions::{InputSource as _, MOUSE_BUTTON_LEFT, MouseActions, PointerAction};
+use fantoccini::actions::{
+    InputSource as _, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MouseActions, PointerAction,
+};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -28,6 +30,7 @@ pub(crate) enum Theme {
 pub(crate) struct Control {
     pub(crate) role: String,
     pub(crate) label: String,
+    pub(crate) value: Option<String>,
     pub(crate) number: Option<f64>,
     pub(crate) bounds: [f64; 4],
 }
@@ -193,6 +196,24 @@ impl Page {
         }
         let mouse = mouse.then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
         self.browser.run(self.browser.client().perform_actions(mouse));
+    }
+
+    /// Presses a key while others are held down.
+    pub(crate) fn keys(&self, held: &[char], key: char) {
+        let mut keyboard = KeyActions::new("keyboard".to_owned());
+        for &value in held.iter().chain([&key]) {
+            keyboard = keyboard.then(KeyAction::Down { value });
+        }
+        for &value in [&key].into_iter().chain(held.iter().rev()) {
+            keyboard = keyboard.then(KeyAction::Up { value });
+        }
+        self.browser.run(self.browser.client().perform_actions(keyboard));
+    }
+
+    /// Lets the page save files in a folder.
+    pub(crate) fn downloads_to(&self, folder: &Path) {
+        let parameters = json!({ "behavior": "allow", "downloadPath": folder });
+        self.browser.devtools("Browser.setDownloadBehavior", &parameters);
     }
 
     pub(crate) fn png(&self) -> Vec<u8> {

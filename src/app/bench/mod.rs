@@ -9,7 +9,7 @@ use super::view::View;
 use crate::jobs::design::Operating;
 use crate::jobs::study::harvest::HarvestStudy;
 use crate::model::{Device, Dimension, Limits, ModelError};
-use crate::scenario::Scenario;
+use crate::scenario::{ModelChoice, Scenario};
 
 /// What the bench keeps beside the view.
 #[derive(Default)]
@@ -18,6 +18,8 @@ pub(super) struct Bench {
     pub refusal: Option<String>,
     /// Measured data.
     pub measured: Measured,
+    /// Modes and force law before the present ones.
+    pub before: ModelChoice,
     /// Curves and numbers kept to compare with.
     pub pinned: Option<Box<Pinned>>,
 }

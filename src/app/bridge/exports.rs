@@ -47,19 +47,6 @@ pub fn load(json: &str) -> Result<(), JsError> {
     })
 }
 
-/// Shows measured data from the text of a file.
-///
-/// # Errors
-/// When the app is not running.
-#[wasm_bindgen]
-pub fn import(name: &str, text: Vec<u8>) -> Result<(), JsError> {
-    running(|running| {
-        running.app.try_borrow_mut().map_err(|_| BUSY)?.import(name, text);
-        running.context.request_repaint();
-        Ok(())
-    })
-}
-
 /// Answers one request of the solver, as the native command does, in a worker. The promise is rejected with one line
 /// that names the field, its value and the allowed range.
 ///

@@ -4,8 +4,10 @@
 //! The page's own script (`assets/shell/start.js`) shows the loading and failure screens, loads this module and turns
 //! the exported functions into `window.harvester`.
 
+mod address;
 mod controls;
 pub mod exports;
+mod files;
 mod frames;
 mod shell;
 mod storage;
@@ -63,21 +65,6 @@ pub fn start() {
     });
 }
 
-/// Lets the user choose a file; it comes back through [`exports::import`].
-pub(super) fn choose_file() {
-    shell::open();
-}
-
-/// Reads a file that was dropped on the page.
-pub(super) fn read_dropped(file: egui::DroppedFileHandle) {
-    wasm_bindgen_futures::spawn_local(async move {
-        if let Ok(text) = file.bytes_async().await {
-            // Without a running app there is nothing to show it in.
-            let _ = exports::import(&file.path().to_string_lossy(), text);
-        }
-    });
-}
-
 /// Milliseconds between pictures of work that goes on.
 const BETWEEN_PICTURES: f64 = 100.0;
 
@@ -104,6 +91,29 @@ fn crew(context: egui::Context) -> Rc<RefCell<Crew>> {
     })
 }
 
+/// Changes the running app from outside of its frames. One that is busy or has crashed is left alone.
+fn change(with: impl FnOnce(&mut App, &mut storage::Keeper)) {
+    RUNNING.with_borrow(|slot| {
+        if let Some(running) = slot
+            && let Ok(mut app) = running.app.try_borrow_mut()
+            && let Ok(mut keeper) = running.keeper.try_borrow_mut()
+        {
+            with(&mut app, &mut keeper);
+            keeper.touch();
+            running.context.request_repaint();
+        }
+    });
+}
+
+/// Shows what the address asks for.
+fn open_address() {
+    change(|app, keeper| {
+        let fragment = address::fragment();
+        app.open_link(&fragment);
+        keeper.opened((!fragment.is_empty()).then(|| app.fragment()));
+    });
+}
+
 /// The app as eframe sees it.
 struct Page {
     app: Rc<RefCell<App>>,
@@ -116,7 +126,9 @@ impl Page {
     fn new(context: &egui::Context) -> Self {
         let keeper = storage::Keeper::open();
         let crew = crew(context.clone());
-        let app = Rc::new(RefCell::new(App::new(context, keeper.stored(), Rc::clone(&crew))));
+        let mut app = App::new(context, keeper.stored(), Rc::clone(&crew));
+        app.set_address(address::base());
+        let app = Rc::new(RefCell::new(app));
         let keeper = Rc::new(RefCell::new(keeper));
         let recorder = Recorder::default();
         context.add_plugin(Probe::new(recorder.clone()));
@@ -127,6 +139,8 @@ impl Page {
             recorder: recorder.clone(),
             keeper: Rc::clone(&keeper),
         }));
+        open_address();
+        address::watch(open_address);
         Self { app, keeper, recorder, shown: false }
     }
 }
@@ -134,6 +148,7 @@ impl Page {
 impl eframe::App for Page {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         self.recorder.total(frame.info().cpu_usage);
+        files::take_dropped(ctx);
         let mut app = self.app.borrow_mut();
         app.logic(ctx);
         exports::settle_running();
@@ -142,6 +157,8 @@ impl eframe::App for Page {
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         self.app.borrow_mut().ui(ui);
+        let errands = self.app.borrow_mut().take_errands();
+        errands.iter().for_each(files::run);
         if !self.shown {
             self.shown = true;
             shell::ready();

@@ -13,10 +13,6 @@ extern "C" {
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn fail(title: &str, detail: &str);
 
-    /// Lets the user choose a file of measured data, and hands it over.
-    #[wasm_bindgen(js_namespace = harvesterShell)]
-    pub(super) fn open();
-
     /// A new worker that has been told to run this (compiled) `module`, or null.
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn worker(module: &JsValue) -> JsValue;

@@ -1,6 +1,6 @@
 //! Keeps the app's state in the browser's local storage.
 
-use super::App;
+use super::{App, address};
 
 /// One versioned key, also known to `assets/shell/start.js`, which offers its value after a crash.
 const KEY: &str = "harvester-lab.v1";
@@ -14,6 +14,8 @@ const PAUSE: f64 = 1.0;
 pub(super) struct Keeper {
     storage: Option<web_sys::Storage>,
     written: Option<String>,
+    /// The link in the address, as the app writes it.
+    opened: Option<String>,
     touched: bool,
     looked: f64,
 }
@@ -23,7 +25,7 @@ impl Keeper {
     pub(super) fn open() -> Self {
         let storage = web_sys::window().and_then(|window| window.local_storage().ok().flatten());
         let written = storage.as_ref().and_then(|storage| storage.get_item(KEY).ok().flatten());
-        Self { storage, written, touched: false, looked: 0.0 }
+        Self { storage, written, opened: None, touched: false, looked: 0.0 }
     }
 
     /// The state as last read or written.
@@ -34,6 +36,11 @@ impl Keeper {
     /// Says that the state may have changed without any input event.
     pub(super) fn touch(&mut self) {
         self.touched = true;
+    }
+
+    /// Says whether the address holds a link, and how the app would write it.
+    pub(super) fn opened(&mut self, link: Option<String>) {
+        self.opened = link;
     }
 
     /// Called once a frame.
@@ -55,6 +62,11 @@ impl Keeper {
 
     /// Writes now, unless nothing changed.
     pub(super) fn keep(&mut self, app: &App) {
+        // Once the view has departed from the link in the address, a reload must not bring it back.
+        if self.opened.as_ref().is_some_and(|link| *link != app.fragment()) {
+            self.opened = None;
+            address::forget_fragment();
+        }
         let Some(storage) = &self.storage else { return };
         let state = app.stored();
         if self.written.as_ref() != Some(&state) && storage.set_item(KEY, &state).is_ok() {

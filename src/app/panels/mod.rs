@@ -18,6 +18,7 @@ mod phase_plane;
 pub(super) mod phase_portrait;
 pub(super) mod poincare_map;
 pub(super) mod response;
+mod share;
 pub(super) mod spectrum;
 pub(super) mod stability;
 pub(super) mod stability_map;
@@ -41,6 +42,10 @@ pub(super) struct Context<'a> {
     pub session: &'a Session,
     pub studies: &'a Studies,
     pub bench: &'a Bench,
+    /// The page's own address, without a fragment.
+    pub address: &'a str,
+    /// Whether there is a step to take back, and one to take again.
+    pub steps: (bool, bool),
     pub commands: &'a mut Commands,
 }
 

@@ -2,15 +2,17 @@
 
 use egui::Ui;
 
-use super::Context;
+use super::{Context, share};
 use crate::app::command::Command;
 use crate::app::session::Status;
 use crate::app::view::Tab;
-use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, tabs};
+use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, sign, tabs};
 use crate::app::{fonts, theme};
 
-/// Width below which the switches move under the tabs.
-const NARROW: f32 = 560.0;
+/// Width below which the tabs move under the switches.
+const NARROW: f32 = 840.0;
+/// Width below which the state of the computation is a sign without words.
+const PHONE: f32 = 420.0;
 
 /// The tabs can be pushed aside where there is no room for all of them; a bar would hide them.
 const SCROLL_BAR: egui::scroll_area::ScrollBarVisibility =
@@ -18,14 +20,16 @@ const SCROLL_BAR: egui::scroll_area::ScrollBarVisibility =
 
 /// Draws the bar.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let narrow = ui.available_width() < NARROW;
-    if narrow {
+    let width = ui.available_width();
+    if width < NARROW {
         ui.vertical(|ui| {
             ui.horizontal(|ui| {
                 title(ui);
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    ui.spacing_mut().item_spacing.x = 2.0;
                     switches(context, ui);
-                    status(context, ui);
+                    share::buttons(context, ui);
+                    status(context, ui, if width < PHONE { sign } else { badge });
                 });
             });
             egui::ScrollArea::horizontal()
@@ -39,8 +43,9 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             choose_tab(context, ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 switches(context, ui);
+                share::buttons(context, ui);
                 ui.add_space(6.0);
-                status(context, ui);
+                status(context, ui, badge);
             });
         });
     }
@@ -66,7 +71,7 @@ fn choose_tab(context: &mut Context<'_>, ui: &mut Ui) {
     }
 }
 
-fn status(context: &Context<'_>, ui: &mut Ui) {
+fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str) -> egui::Response) {
     match context.session.status() {
         Status::Done => badge(ui, BadgeKind::Converged, "computed"),
         Status::Computing(part) => {

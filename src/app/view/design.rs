@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::jobs::design::trust::Quantity;
-use crate::model::{Dimension, Limits};
-use crate::scenario::ModelChoice;
+use crate::jobs::study::find::GENERATIONS;
+use crate::model::{Dimension, Limits, MAX_MODES, ModelError};
 use crate::theory::Resonance;
 
 /// The parts of the Design tab.
@@ -64,6 +64,7 @@ pub enum Aim {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Side {
     /// Which.
+    #[serde(default = "Side::usual")]
     pub dimension: Dimension,
     /// Lowest and highest value in its SI unit.
     #[serde(default)]
@@ -71,6 +72,10 @@ pub struct Side {
 }
 
 impl Side {
+    const fn usual() -> Dimension {
+        Dimension::MagnetDistance
+    }
+
     /// About the present value.
     pub const fn of(dimension: Dimension) -> Self {
         Self { dimension, range: None }
@@ -98,6 +103,11 @@ impl Default for SearchView {
     }
 }
 
+/// Frequencies (Hz) that a window may have.
+pub const FREQUENCIES: (f64, f64) = (1e-9, 1e9);
+/// Powers (W) that can be asked for.
+pub const POWERS: (f64, f64) = (1e-30, 1e30);
+
 /// The Design tab.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -124,8 +134,6 @@ pub struct DesignView {
     pub resonance: Resonance,
     /// What is compared over models.
     pub quantity: Quantity,
-    /// Modes and force law before the page was switched to the exact one.
-    pub before: Option<ModelChoice>,
     /// What is searched.
     pub search: SearchView,
 }
@@ -144,8 +152,38 @@ impl Default for DesignView {
             mode: 1,
             resonance: Resonance::First,
             quantity: Quantity::Power,
-            before: None,
             search: SearchView::default(),
         }
     }
+}
+
+impl DesignView {
+    /// Checks that everything can be asked for.
+    ///
+    /// # Errors
+    /// [`ModelError`] naming what is out of range.
+    pub(super) fn check(&self) -> Result<(), ModelError> {
+        for end in self.window.iter().flat_map(|(from, to)| [from, to]) {
+            ModelError::check("design.window", *end, FREQUENCIES, " Hz")?;
+        }
+        if let Some(least) = self.least {
+            ModelError::check("design.least", least, POWERS, " W")?;
+        }
+        self.limits.validate()?;
+        count("design.mode", self.mode, (1, MAX_MODES))?;
+        count("design.search.generations", self.search.generations, GENERATIONS)?;
+        for side in self.search.sides.iter().chain(&self.search.third) {
+            for end in side.range.iter().flat_map(|(from, to)| [from, to]) {
+                side.dimension.check(*end)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn count(field: &'static str, value: usize, (minimum, maximum): (usize, usize)) -> Result<(), ModelError> {
+    if (minimum..=maximum).contains(&value) {
+        return Ok(());
+    }
+    Err(ModelError::Count { field, value, minimum, maximum })
 }

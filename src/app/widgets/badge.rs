@@ -22,6 +22,15 @@ pub enum BadgeKind {
 
 /// Shows a pill with a sign and `text`.
 pub fn badge(ui: &mut Ui, kind: BadgeKind, text: &str) -> Response {
+    pill(ui, kind, text, text)
+}
+
+/// Shows the sign alone; `text` is its tooltip and its name for screen readers.
+pub fn sign(ui: &mut Ui, kind: BadgeKind, text: &str) -> Response {
+    pill(ui, kind, "", text).on_hover_text(text)
+}
+
+fn pill(ui: &mut Ui, kind: BadgeKind, shown: &str, text: &str) -> Response {
     let tokens = theme::tokens(ui);
     let colour = match kind {
         BadgeKind::Computing => tokens.accent,
@@ -30,8 +39,9 @@ pub fn badge(ui: &mut Ui, kind: BadgeKind, text: &str) -> Response {
         BadgeKind::Error => tokens.danger,
         BadgeKind::Neutral => tokens.text_weak,
     };
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), fonts::regular(theme::size::SMALL), colour);
-    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 30.0, 21.0), Sense::hover());
+    let galley = ui.painter().layout_no_wrap(shown.to_owned(), fonts::regular(theme::size::SMALL), colour);
+    let width = if shown.is_empty() { 24.0 } else { galley.size().x + 30.0 };
+    let (rect, response) = ui.allocate_exact_size(vec2(width, 21.0), Sense::hover());
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Status, enabled, text));
     ui.painter().rect_filled(rect, 10, tokens.tint(colour));

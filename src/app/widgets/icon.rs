@@ -37,6 +37,8 @@ pub enum Icon {
     Undo,
     /// An arrow bending right.
     Redo,
+    /// Three dots joined: share.
+    Share,
     /// Two sheets: copy.
     Copy,
     /// Three lines: menu.
@@ -127,6 +129,12 @@ pub fn paint(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
             });
             let path = [at(-0.75 * side, -0.3)].into_iter().chain(bend).chain([at(-0.3 * side, 0.7)]);
             painter.add(Shape::line(path.collect(), stroke));
+        }
+        Icon::Share => {
+            line(&[(0.6, -0.62), (-0.6, 0.0), (0.6, 0.62)]);
+            for (x, y) in [(0.6, -0.62), (-0.6, 0.0), (0.6, 0.62)] {
+                painter.circle_filled(at(x, y), side * 0.14, colour);
+            }
         }
         Icon::Copy => {
             let sheet = |x: f32, y: f32| Rect::from_min_max(at(x, y), at(x + 1.05, y + 1.2));

@@ -9,6 +9,7 @@ pub mod legend;
 pub mod number;
 pub mod parameter_slider;
 pub mod plot_style;
+pub mod qr;
 pub mod raster;
 pub mod swatch;
 pub mod tabs;
@@ -17,13 +18,14 @@ pub mod tile;
 #[cfg(test)]
 pub(super) mod harness;
 
-pub use badge::{BadgeKind, badge};
+pub use badge::{BadgeKind, badge, sign};
 pub use beam_view::BeamView;
 pub use card::{Card, CardResponse};
 pub use fold::Fold;
 pub use icon::{Icon, icon_button};
 pub use legend::{Series, legend_entry};
 pub use parameter_slider::{Mark, ParameterSlider, SliderResponse};
+pub use qr::qr_code;
 pub use raster::{HATCH, draw_cells, draw_raster, on_hatching, raster};
 pub use swatch::{attractor_row, colour_bar, swatches};
 pub use tabs::{chips, tabs};

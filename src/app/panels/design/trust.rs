@@ -43,13 +43,12 @@ fn switch(context: &mut Context<'_>, ui: &mut Ui) {
         ui.add_space(8.0);
         let present = context.view.scenario.model;
         if present == BEST {
-            let back = context.view.design.before.unwrap_or_default();
+            let back = context.bench.before;
             let text = format!("Back to {}", in_words(back));
             if ui.button(text).clicked() {
                 adopt(context, back);
             }
         } else if ui.button("Switch the whole page to the exact law, 4 modes").clicked() {
-            context.redesign(|design| design.before = Some(present));
             adopt(context, BEST);
         }
         let text = format!(

@@ -1,0 +1,93 @@
+//! Files: saved by a link with a download name, opened by the browser's own dialog or dropped on the page.
+
+use egui::DroppedFileHandle;
+use wasm_bindgen::prelude::Closure;
+use wasm_bindgen::{JsCast as _, JsValue};
+use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Url};
+
+use crate::app::sharing::Errand;
+
+/// The element that opens the dialog; tests find it by this.
+const INPUT: &str = "open-file";
+/// How long a saved text stays readable for the browser, in milliseconds.
+const SAVING: i32 = 60_000;
+
+/// Does what the app asks of the browser.
+pub(super) fn run(errand: &Errand) {
+    // Without a page there is nobody to save or open anything for.
+    let _ = match errand {
+        Errand::Save(name, text) => save(name, text),
+        Errand::Open => open(),
+    };
+}
+
+fn document() -> Option<web_sys::Document> {
+    web_sys::window()?.document()
+}
+
+fn save(name: &str, text: &str) -> Option<()> {
+    let options = BlobPropertyBag::new();
+    options.set_type("application/json");
+    let parts = js_sys::Array::of1(&JsValue::from_str(text));
+    let blob = Blob::new_with_str_sequence_and_options(&parts, &options).ok()?;
+    let address = Url::create_object_url_with_blob(&blob).ok()?;
+    let anchor: HtmlAnchorElement = document()?.create_element("a").ok()?.dyn_into().ok()?;
+    anchor.set_href(&address);
+    anchor.set_download(name);
+    anchor.click();
+    // Not at once: some browsers read it later.
+    let forget = Closure::once_into_js(move || Url::revoke_object_url(&address));
+    let forget = forget.unchecked_ref();
+    web_sys::window()?.set_timeout_with_callback_and_timeout_and_arguments_0(forget, SAVING).ok()?;
+    Some(())
+}
+
+fn open() -> Option<()> {
+    let document = document()?;
+    let input: HtmlInputElement = match document.get_element_by_id(INPUT) {
+        Some(element) => element.dyn_into().ok()?,
+        None => {
+            let input: HtmlInputElement = document.create_element("input").ok()?.dyn_into().ok()?;
+            input.set_id(INPUT);
+            input.set_type("file");
+            input.set_accept(".json,.csv,.tsv,.txt,.dat,application/json,text/*");
+            input.set_hidden(true);
+            let chosen = input.clone();
+            let listener = Closure::<dyn FnMut()>::new(move || {
+                if let Some(file) = chosen.files().and_then(|files| files.get(0)) {
+                    wasm_bindgen_futures::spawn_local(read(file));
+                }
+            });
+            input.set_onchange(Some(listener.as_ref().unchecked_ref()));
+            // One for the life of the page.
+            listener.forget();
+            document.body()?.append_child(&input).ok()?;
+            input
+        }
+    };
+    // The same file again is a change, too.
+    input.set_value("");
+    input.click();
+    Some(())
+}
+
+async fn read(file: web_sys::File) {
+    let bytes = wasm_bindgen_futures::JsFuture::from(file.array_buffer()).await;
+    let bytes = bytes.map(|buffer| js_sys::Uint8Array::new(&buffer).to_vec());
+    let bytes = bytes.map_err(|_| "the browser cannot read it".to_owned());
+    super::change(|app, _| app.open_file(&file.name(), bytes));
+}
+
+/// Opens what was dropped on the page in this frame.
+pub(super) fn take_dropped(context: &egui::Context) {
+    let dropped = context.input(|input| input.raw.dropped_files.clone());
+    for file in dropped {
+        wasm_bindgen_futures::spawn_local(read_dropped(file));
+    }
+}
+
+async fn read_dropped(file: DroppedFileHandle) {
+    let name = file.path().to_string_lossy().into_owned();
+    let bytes = file.bytes_async().await;
+    super::change(|app, _| app.open_file(&name, bytes));
+}

@@ -1,0 +1,170 @@
+//! Links: a view as the readable, versioned fragment of an address, `#v=1&alpha=1e-4&omega=8.0969&tab=stability`.
+//!
+//! Names are spelled as in the JSON of a view. Only what differs from the paper's numbers is written, so a link says all
+//! that is special about what it shows, and means the same in a later version that opens with something else. What is
+//! not usable is reported and left at its usual value; everything else is loaded.
+
+mod field;
+mod number;
+
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+
+use serde_json::Value;
+
+use super::view::View;
+use crate::scenario::Scenario;
+use field::{Field, fields};
+
+/// Version of the links written here; older ones are read.
+const VERSION: u32 = 1;
+/// A link with more entries than this is not one of ours.
+const MOST_ENTRIES: usize = 200;
+/// Characters of a wrong value that are repeated in a message, and wrong entries that are named.
+const SHOWN_CHARACTERS: usize = 40;
+const SHOWN_PROBLEMS: usize = 5;
+
+/// An entry of a link that could not be used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Its name as given, shortened.
+    pub name: String,
+    /// Its value as given, shortened.
+    pub value: String,
+    /// What is wrong, with what is allowed.
+    pub reason: String,
+}
+
+impl Problem {
+    fn new(name: &str, value: &str, reason: impl Into<String>) -> Self {
+        let short = |text: &str| {
+            let start: String = text.chars().take(SHOWN_CHARACTERS).collect();
+            if start.len() < text.len() { start + "…" } else { start }
+        };
+        Self { name: short(name), value: short(value), reason: reason.into() }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{} = {} ({})", self.name, self.value, self.reason)
+    }
+}
+
+/// What to tell the user about a link with problems.
+pub fn complaint(problems: &[Problem]) -> Option<String> {
+    if problems.is_empty() {
+        return None;
+    }
+    let mut named: Vec<String> = problems.iter().take(SHOWN_PROBLEMS).map(Problem::to_string).collect();
+    if problems.len() > SHOWN_PROBLEMS {
+        named.push(format!("and {} more", problems.len() - SHOWN_PROBLEMS));
+    }
+    Some(format!("Not everything in this link could be used: {}.", named.join("; ")))
+}
+
+/// The view as a fragment, without the `#`.
+pub fn write(view: &View) -> String {
+    let (value, usual) = (view.to_value(), usual(view, &View::default()).to_value());
+    let mut writer = form_urlencoded::Serializer::new(String::new());
+    writer.append_pair("v", &VERSION.to_string());
+    let mut device_written = false;
+    for field in fields() {
+        let given = field.of(&value);
+        // The device's own entry says that there is one, when none of its dimensions does.
+        let differs =
+            if field.is_device() { !given.is_null() && !device_written } else { given != field.of(&usual) };
+        if differs {
+            device_written |= field.is_dimension();
+            writer.append_pair(&field.name, &field.write(given));
+        }
+    }
+    writer.finish()
+}
+
+/// Reads a fragment, with or without the `#`. How `present` looks (its theme, its size of type) stays unless the link
+/// names it. A fragment that is no link at all changes nothing.
+pub fn read(fragment: &str, present: &View) -> (View, Vec<Problem>) {
+    let fields = fields();
+    let usual = usual(&View::default(), present);
+    let plain = usual.to_value();
+    let (mut given, mut problems, mut recognised) = (Vec::<Given<'_>>::new(), Vec::new(), false);
+    let fragment = fragment.trim().trim_start_matches('#').as_bytes();
+    for (name, text) in form_urlencoded::parse(fragment).take(MOST_ENTRIES) {
+        if name == "v" {
+            recognised = true;
+            if text.parse().is_ok_and(|version: u32| (1..=VERSION).contains(&version)) {
+                continue;
+            }
+            problems.push(Problem::new(&name, &text, format!("this page knows version {VERSION}")));
+            continue;
+        }
+        let Some((place, field)) = fields.iter().enumerate().find(|(_, field)| field.name == name) else {
+            problems.push(Problem::new(&name, &text, "not a name this page knows"));
+            continue;
+        };
+        recognised = true;
+        match field.read(&text).and_then(|value| field.try_out(plain.clone(), &value).map(|()| value)) {
+            Ok(value) => {
+                given.retain(|other| other.place != place);
+                given.push(Given { field, place, value, text: text.into_owned() });
+            }
+            Err(reason) => problems.push(Problem::new(&name, &text, reason)),
+        }
+    }
+    if !recognised {
+        return (present.clone(), problems);
+    }
+    let view = agree(given, usual, &plain, &mut problems);
+    (view, problems)
+}
+
+/// An entry that is usable by itself.
+#[derive(Clone)]
+struct Given<'a> {
+    field: &'a Field,
+    /// Its place among all of them.
+    place: usize,
+    value: Value,
+    text: String,
+}
+
+/// The view of entries each of which is usable, less those that do not go together with the others.
+fn agree(mut given: Vec<Given<'_>>, usual: View, plain: &Value, problems: &mut Vec<Problem>) -> View {
+    let assemble = |given: &[Given<'_>]| {
+        let mut value = plain.clone();
+        for Given { field, value: new, .. } in given {
+            field.set(&mut value, new);
+        }
+        View::from_value(value).unwrap_or_else(|_| usual.clone())
+    };
+    // Of several that could be blamed, the more special one is: a start state rather than the number of modes.
+    given.sort_by_key(|given| given.place);
+    loop {
+        let view = assemble(&given);
+        let Err((part, reason)) = view.check() else { return view };
+        let suspects: Vec<usize> = (0..given.len()).filter(|i| given[*i].field.is_part_of(part)).collect();
+        let mends = |i: &usize| {
+            let others: Vec<_> = (0..given.len()).filter(|j| j != i).map(|j| given[j].clone()).collect();
+            !matches!(assemble(&others).check(), Err((still, _)) if still == part)
+        };
+        let culprits = suspects.iter().rev().find(|i| mends(i)).map_or(suspects.clone(), |one| vec![*one]);
+        if culprits.is_empty() {
+            return usual;
+        }
+        for i in culprits.into_iter().rev() {
+            let Given { field, text, .. } = given.remove(i);
+            problems.push(Problem::new(&field.name, &text, reason.clone()));
+        }
+    }
+}
+
+/// What a link leaves out: the paper's numbers and a plain view, as long as links of version 1 are read, and the device's
+/// dimensions when `of` has some; looks as in `present`.
+fn usual(of: &View, present: &View) -> View {
+    let device = of.scenario.device.map(|_| Default::default());
+    let scenario = Scenario { device, ..Scenario::default() };
+    View { scenario, ..View::default() }.with_looks_of(present)
+}

@@ -1,0 +1,138 @@
+//! Undo, redo, and sharing what is in view: a link, its QR code, a file.
+
+use egui::{Color32, Id, Modal, Popup, PopupCloseBehavior, RichText, TextEdit, Ui};
+
+use super::Context;
+use crate::app::command::Command;
+use crate::app::view::View;
+use crate::app::widgets::{Icon, icon_button, qr_code};
+use crate::app::{fonts, link, theme};
+
+/// Width of the popover, and the side of its code.
+const WIDTH: f32 = 300.0;
+const CODE: f32 = 216.0;
+/// Seconds for which a button says that it copied.
+const COPIED: f64 = 2.0;
+
+/// What is remembered between frames.
+#[derive(Clone, Copy, Default)]
+struct Memory {
+    /// The link carries theme and type size, too.
+    looks: bool,
+    /// The code fills the page.
+    large: bool,
+    /// When the link was copied, by egui's clock.
+    copied: Option<f64>,
+}
+
+/// Draws the buttons from right to left, and what they open.
+pub(super) fn buttons(context: &mut Context<'_>, ui: &mut Ui) {
+    let id = Id::unique("share");
+    let mut memory: Memory = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    let button = icon_button(ui, Icon::Share, "Share: link, QR code, file");
+    let (can_undo, can_redo) = context.steps;
+    for (icon, label, able, command) in [
+        (Icon::Redo, "Redo (Ctrl+Shift+Z)", can_redo, Command::Redo),
+        (Icon::Undo, "Undo (Ctrl+Z)", can_undo, Command::Undo),
+    ] {
+        if ui.add_enabled_ui(able, |ui| icon_button(ui, icon, label)).inner.clicked() {
+            context.commands.push(command);
+        }
+    }
+    let popup = Popup::from_toggle_button_response(&button)
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .accessible_name("Share");
+    popup.show(|ui| popover(context, ui, &mut memory));
+    if memory.large {
+        large_code(ui, &link(context, &memory), &mut memory);
+    }
+    ui.data_mut(|data| data.insert_temp(id, memory));
+    if ui.input(|input| !input.raw.hovered_files.is_empty()) {
+        announce_drop(ui);
+    }
+}
+
+/// The link to what is in view.
+fn link(context: &Context<'_>, memory: &Memory) -> String {
+    let view = context.view.clone();
+    let view = if memory.looks { view } else { view.with_looks_of(&View::default()) };
+    format!("{}#{}", context.address, link::write(&view))
+}
+
+fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
+    let tokens = theme::tokens(ui);
+    let link = link(context, memory);
+    let link = link.as_str();
+    ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
+    let title = ui.label(RichText::new("Link to this view").font(fonts::semibold(theme::size::TITLE)));
+    let mut shown = link;
+    let field = TextEdit::singleline(&mut shown).desired_width(f32::INFINITY).id_salt("link");
+    ui.add(field.background_color(tokens.field)).labelled_by(title.id);
+    let now = ui.input(|input| input.time);
+    let copied = memory.copied.is_some_and(|then| now - then < COPIED);
+    ui.horizontal(|ui| {
+        if ui.button(if copied { "Copied" } else { "Copy link" }).clicked() {
+            ui.ctx().copy_text(link.to_owned());
+            ui.ctx().request_repaint_after_secs(COPIED as f32 + 0.1);
+            memory.copied = Some(now);
+        }
+        if ui.button("Large code").clicked() {
+            enlarge(ui, memory);
+        }
+    });
+    ui.checkbox(&mut memory.looks, "with my theme and size of type");
+    ui.add_space(2.0);
+    let width = ui.available_width();
+    ui.vertical_centered(|ui| match qr_code(ui, link, CODE.min(width), "QR code of the link: enlarge") {
+        Some(code) if code.clicked() => enlarge(ui, memory),
+        Some(_) => {}
+        None => {
+            ui.label(RichText::new("This link is too long for a QR code.").color(tokens.text_weak));
+        }
+    });
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        if ui.button("Save file").clicked() {
+            context.commands.push(Command::SaveFile);
+        }
+        if ui.button("Open file").clicked() {
+            context.commands.push(Command::OpenFile);
+        }
+    });
+    ui.label(
+        RichText::new("or drop a scenario or measured data on the page").small().color(tokens.text_weak),
+    );
+}
+
+/// Opens the large code in place of the popover.
+fn enlarge(ui: &mut Ui, memory: &mut Memory) {
+    memory.large = true;
+    ui.close();
+}
+
+/// The code as large as the page allows, until a click or Escape.
+fn large_code(ui: &Ui, link: &str, memory: &mut Memory) {
+    let page = ui.ctx().content_rect().size();
+    let side = page.x.min(page.y) - 48.0;
+    let frame = egui::Frame::new().fill(Color32::WHITE).corner_radius(theme::radius::CARD).inner_margin(8);
+    let modal =
+        Modal::new(Id::unique("large code")).frame(frame).backdrop_color(Color32::from_black_alpha(190));
+    let shown = modal.show(ui.ctx(), |ui| {
+        qr_code(ui, link, side, "QR code of the link: close").is_none_or(|code| code.clicked())
+    });
+    if shown.inner || shown.should_close() {
+        memory.large = false;
+    }
+}
+
+/// Says what a file that hovers over the page is for.
+fn announce_drop(ui: &Ui) {
+    let tokens = theme::tokens(ui);
+    let layer = egui::LayerId::new(egui::Order::Foreground, Id::unique("drop"));
+    let painter = ui.ctx().layer_painter(layer);
+    let page = ui.ctx().content_rect();
+    painter.rect_filled(page, 0, tokens.page.gamma_multiply(0.85));
+    let font = fonts::semibold(theme::size::HEADING);
+    let text = "Drop the file to open it";
+    painter.text(page.center(), egui::Align2::CENTER_CENTER, text, font, tokens.text_strong);
+}

@@ -1,0 +1,112 @@
+//! Undo and redo of everything that a command changes.
+//!
+//! Not undone is what suits the room and the eyes rather than the question: the theme, the size of type, whether the
+//! beam moves. Those stay as they are when steps are taken back.
+
+use std::rc::Rc;
+
+use egui::{Event, Key, Modifiers};
+
+use super::App;
+use super::command::{Command, Commands};
+use super::history::Hand;
+use super::session::Shown;
+use super::view::View;
+
+/// What a step restores: the view, less its looks, and the curves kept for comparison.
+#[derive(Clone)]
+pub(super) struct Moment {
+    view: View,
+    pinned: Option<Rc<Shown>>,
+}
+
+impl PartialEq for Moment {
+    fn eq(&self, other: &Self) -> bool {
+        let pins = (self.pinned.as_ref().map(Rc::as_ptr), other.pinned.as_ref().map(Rc::as_ptr));
+        self.view == other.view && pins.0 == pins.1
+    }
+}
+
+/// What pointers and keys do in this frame.
+pub(super) fn hand(context: &egui::Context) -> Hand {
+    context.input(|input| {
+        let key = |event: &Event| matches!(event, Event::Key { pressed: true, repeat: false, .. });
+        let pointer = &input.pointer;
+        Hand {
+            presses: pointer.any_pressed() || input.events.iter().any(key),
+            holds: pointer.any_down() || pointer.any_released() || !input.keys_down.is_empty(),
+        }
+    })
+}
+
+/// Control-Z and its kin, unless a text is being typed, which has its own.
+pub(super) fn shortcuts(context: &egui::Context, commands: &mut Commands) {
+    if context.text_edit_focused() {
+        return;
+    }
+    context.input_mut(|input| {
+        // The one with more modifiers first: the other would take it, too.
+        if input.consume_key(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
+            || input.consume_key(Modifiers::COMMAND, Key::Y)
+        {
+            commands.push(Command::Redo);
+        } else if input.consume_key(Modifiers::COMMAND, Key::Z) {
+            commands.push(Command::Undo);
+        }
+    });
+}
+
+impl App {
+    fn moment(&self) -> Moment {
+        let view = self.view.clone().with_looks_of(&View::default());
+        Moment { view, pinned: self.session.pinned.clone() }
+    }
+
+    /// Carries out a command and notes what there was before.
+    pub(super) fn step(&mut self, command: Command, hand: Hand) {
+        let travels = matches!(command, Command::Undo | Command::Redo);
+        let before = self.moment();
+        self.carry_out(command);
+        if !travels && before != self.moment() {
+            self.history.note(before, hand);
+        }
+    }
+
+    /// Shows another view, as one step. The window of the map follows the point, where `follows`.
+    pub(super) fn replace(&mut self, view: View, follows: bool) {
+        let before = self.moment();
+        if follows {
+            self.view = View { scenario: self.view.scenario.clone(), ..view.clone() };
+            self.show(view.scenario);
+        } else {
+            self.session.ask(&view.scenario);
+            self.view = view;
+        }
+        if before != self.moment() {
+            self.history.begin_frame(Hand::default());
+            self.history.note(before, Hand::default());
+        }
+        self.follow();
+    }
+
+    pub(super) fn undo(&mut self) {
+        let present = self.moment();
+        if let Some(moment) = self.history.undo(present) {
+            self.restore(moment);
+        }
+    }
+
+    pub(super) fn redo(&mut self) {
+        let present = self.moment();
+        if let Some(moment) = self.history.redo(present) {
+            self.restore(moment);
+        }
+    }
+
+    /// Exactly what there was: nothing follows anything.
+    fn restore(&mut self, moment: Moment) {
+        self.view = moment.view.with_looks_of(&self.view);
+        self.session.pinned = moment.pinned;
+        self.session.ask(&self.view.scenario);
+    }
+}
