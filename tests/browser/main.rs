@@ -15,7 +15,7 @@ use page::{Page, Theme};
 use serde_json::Value;
 
 /// What the page may weigh, compressed, with everything it loads.
-const LIMIT: usize = 1_600_000;
+const LIMIT: usize = 1_800_000;
 
 /// The number a slider shows.
 fn number(page: &mut Page, label: &str) -> f64 {

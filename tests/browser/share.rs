@@ -172,7 +172,7 @@ fn a_file_is_saved_opened_and_dropped_and_a_bad_one_changes_nothing() {
     assert_eq!(parameter(&page.state(), "beta"), 0.0042);
     // Measured data has a page of its own.
     drop_file(&page, "measured.csv", "frequency,volts\n1,2\n");
-    page.find("measured.csv", &["Label"]);
+    page.find("1 row read", &["Label"]);
     assert_eq!(page.state()["view"]["design"]["page"], "measured");
 
     go_to(&page, "v=1&beta=0.002");

@@ -1,9 +1,9 @@
 //! Numbers in links: the shortest text that reads back as the same number.
 
-/// `1e-4`, `0.15`, `8.096928443820915`.
+/// `1e-4`, `0.005`, `8.096928443820915`: scientific where that saves more than one character.
 pub(super) fn shortest(value: f64) -> String {
     let (plain, scientific) = (value.to_string(), format!("{value:e}"));
-    if scientific.len() < plain.len() { scientific } else { plain }
+    if scientific.len() + 1 < plain.len() { scientific } else { plain }
 }
 
 /// A finite number within `allowed`; otherwise what is wrong with it. `unit` has a leading blank or is empty.
@@ -27,7 +27,8 @@ mod tests {
             (1e-4, "1e-4"),
             (0.01, "0.01"),
             (600.0, "600"),
-            (5000.0, "5e3"),
+            (0.005, "0.005"),
+            (5000.0, "5000"),
             (-0.15, "-0.15"),
             (1e15, "1e15"),
             (0.1 + 0.2, "0.30000000000000004"),

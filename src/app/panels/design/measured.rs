@@ -185,8 +185,11 @@ fn reading(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
     chips(ui, "Column of the voltage", &mut reading.columns.y, &columns);
     let volts = [(1.0, "V"), (1e-3, "mV"), (std::f64::consts::FRAC_1_SQRT_2, "V amplitude"), (1e3, "kV")];
     chips(ui, "Unit of the voltage", &mut reading.columns.y_unit, &volts);
-    let rows =
-        if file.points.is_empty() { String::new() } else { format!("{} rows read", file.points.len()) };
+    let rows = match file.points.len() {
+        0 => String::new(),
+        1 => "1 row read".to_owned(),
+        rows => format!("{rows} rows read"),
+    };
     label(ui, &rows);
     if reading != file.reading {
         context.commands.push(Command::Measure(Some(reading)));
