@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use self::design::DesignView;
 use super::figures::{self, Figure};
+use super::lessons::LessonId;
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::study::curves;
 use crate::jobs::study::sweep::COUNTS;
@@ -29,6 +30,8 @@ pub enum Tab {
     Design,
     /// The paper's figures and tables.
     Paper,
+    /// The list of guided lessons.
+    Lessons,
 }
 
 /// Which part of the (omega, beta) plane the stability map shows.
@@ -184,6 +187,10 @@ pub struct View {
     pub plane: [Parameter; 2],
     /// The Design tab.
     pub design: DesignView,
+    /// The running lesson.
+    pub lesson: Option<LessonId>,
+    /// Its step, from 1; the last one when there are fewer.
+    pub step: usize,
 }
 
 impl Default for View {
@@ -202,6 +209,8 @@ impl Default for View {
             sweep: SweepView::default(),
             plane: [Parameter::Omega, Parameter::Beta],
             design: DesignView::default(),
+            lesson: None,
+            step: 1,
         }
     }
 }

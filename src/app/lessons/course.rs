@@ -1,0 +1,187 @@
+//! How far the user is: what was answered and reached in the running lesson, which lessons are done, and what the
+//! guide's buttons do.
+
+use serde_json::Value;
+
+use super::LessonId;
+use super::data::{Lesson, Step};
+use super::facts::facts;
+use crate::app::session::Session;
+use crate::app::view::{Tab, View};
+use crate::app::{App, link};
+use crate::dynamics::Verdict;
+
+/// What the user wants of the lessons.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::app) enum Action {
+    /// Begin a lesson, or begin it again.
+    Begin(LessonId),
+    /// Go to a step of the running lesson, from 1.
+    GoTo(usize),
+    /// Set the page as at the beginning of the step.
+    Restart,
+    /// Show how the goal is reached.
+    Show,
+    /// Choose an answer, from 0.
+    Answer(usize),
+    /// Leave the lesson; the page stays as it is.
+    Leave,
+    /// Leave it by its end.
+    Finish,
+}
+
+/// What happened in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(in crate::app) struct Progress {
+    /// Whether its goal was reached.
+    pub reached: bool,
+    /// The answer chosen last, from 0.
+    pub answer: Option<usize>,
+}
+
+/// What is remembered of the lessons beside the view.
+#[derive(Debug, Default)]
+pub struct Course {
+    finished: Vec<LessonId>,
+    lesson: Option<LessonId>,
+    /// One a step of that lesson, as far as there is something to say.
+    progress: Vec<Progress>,
+    /// The view that the goal was last checked on, and whether its verdict was known.
+    checked: Option<(View, bool)>,
+}
+
+impl Course {
+    /// Continues after what an earlier session stored.
+    pub(in crate::app) fn restore(stored: Option<&str>) -> Self {
+        let value: Value = stored.and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default();
+        let names = value.get(FINISHED).and_then(Value::as_array).into_iter().flatten();
+        let finished = names.filter_map(|name| LessonId::named(name.as_str()?)).collect();
+        Self { finished, ..Self::default() }
+    }
+
+    /// Adds what is to be stored to the stored view.
+    pub(in crate::app) fn store(&self, view: &mut Value) {
+        let names: Vec<&str> = self.finished.iter().map(|id| id.name()).collect();
+        if let Some(entries) = view.as_object_mut().filter(|_| !names.is_empty()) {
+            entries.insert(FINISHED.to_owned(), Value::from(names));
+        }
+    }
+
+    /// Whether a lesson was gone through to its end.
+    pub(in crate::app) fn is_finished(&self, id: LessonId) -> bool {
+        self.finished.contains(&id)
+    }
+
+    /// What happened in the step in view.
+    pub(in crate::app) fn progress(&self, view: &View) -> Progress {
+        let same = self.lesson == view.lesson;
+        same.then(|| self.progress.get(view.step)).flatten().copied().unwrap_or_default()
+    }
+
+    /// Whether what the page shows reaches the goal of the step in view, which it had not before. Once reached, it
+    /// stays so.
+    pub(in crate::app) fn look(&mut self, view: &View, session: &Session, verdict: Option<&Verdict>) -> bool {
+        let Some(goal) = step(view).and_then(|step| step.goal.as_ref()) else { return false };
+        let known = verdict.is_some();
+        let checked = self.checked.as_ref().is_some_and(|(of, then)| *then == known && of == view);
+        if checked || self.progress(view).reached {
+            return false;
+        }
+        let facts = facts(view, session.boundaries.as_ref(), verdict);
+        let reached = goal.conditions.iter().all(|condition| condition.holds(&facts));
+        if reached {
+            self.note(view).reached = true;
+        }
+        self.checked = Some((view.clone(), known));
+        reached
+    }
+
+    /// Where to note what happens in the step in view.
+    fn note(&mut self, view: &View) -> &mut Progress {
+        if self.lesson != view.lesson {
+            self.lesson = view.lesson;
+            self.progress.clear();
+        }
+        let length = self.progress.len().max(view.step + 1);
+        self.progress.resize(length, Progress::default());
+        &mut self.progress[view.step]
+    }
+
+    fn begin(&mut self, id: LessonId) {
+        self.lesson = Some(id);
+        self.progress.clear();
+        self.checked = None;
+    }
+}
+
+/// The entry of the stored view that names the lessons done.
+const FINISHED: &str = "finished_lessons";
+
+/// The running lesson.
+pub(in crate::app) fn running(view: &View) -> Option<(LessonId, &'static Lesson)> {
+    let id = view.lesson?;
+    Some((id, id.lesson()?))
+}
+
+/// The step in view.
+pub(in crate::app) fn step(view: &View) -> Option<&'static Step> {
+    running(view)?.1.step(view.step)
+}
+
+/// The view that a step's `fragment` sets, in the same lesson. The Design tab stays as the user left it unless the
+/// fragment is about it.
+pub fn view_of(fragment: &str, present: &View) -> View {
+    let (mut view, _) = link::read(fragment, present);
+    if !fragment.contains("design.") {
+        view.design = present.design.clone();
+    }
+    View { lesson: present.lesson, step: present.step, ..view }
+}
+
+impl App {
+    /// Does what a button of the lessons asks for.
+    pub(in crate::app) fn follow_lesson(&mut self, action: Action) {
+        match action {
+            Action::Begin(id) => {
+                self.course.begin(id);
+                (self.view.lesson, self.view.step) = (Some(id), 1);
+                self.set_step();
+            }
+            Action::GoTo(number) => {
+                let last = running(&self.view).map_or(1, |(_, lesson)| lesson.steps.len());
+                self.view.step = number.clamp(1, last);
+                self.set_step();
+            }
+            Action::Restart => self.set_step(),
+            Action::Show => {
+                if let Some(goal) = step(&self.view).and_then(|step| step.goal.as_ref()) {
+                    self.set_view(&goal.show);
+                }
+            }
+            Action::Answer(answer) => self.course.note(&self.view).answer = Some(answer),
+            Action::Leave => self.leave_lesson(),
+            Action::Finish => {
+                let id = self.view.lesson.filter(|id| !self.course.is_finished(*id));
+                self.course.finished.extend(id);
+                self.leave_lesson();
+                (self.view.tab, self.view.enlarged) = (Tab::Lessons, None);
+            }
+        }
+    }
+
+    fn leave_lesson(&mut self) {
+        (self.view.lesson, self.view.step) = (None, 1);
+    }
+
+    /// Sets the page as the step in view begins.
+    pub(in crate::app) fn set_step(&mut self) {
+        if let Some(fragment) = step(&self.view).and_then(|step| step.view.as_ref()) {
+            self.set_view(fragment);
+        }
+    }
+
+    fn set_view(&mut self, fragment: &str) {
+        let view = view_of(fragment, &self.view);
+        self.place(view, !fragment.contains("map="));
+    }
+}

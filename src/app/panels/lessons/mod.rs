@@ -1,0 +1,8 @@
+//! The Lessons tab, and the guide that goes along with a running lesson on every tab.
+
+mod guide;
+mod list;
+mod text;
+
+pub(in crate::app) use guide::guide;
+pub(in crate::app) use list::show;
