@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use crate::page::{Control, Page, Theme};
 use crate::drag_slider;
+use crate::page::{Control, Page, Theme};
 
 const CONTROL: char = '\u{e009}';
 

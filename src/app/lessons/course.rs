@@ -185,3 +185,102 @@ impl App {
         self.place(view, !fragment.contains("map="));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
+    use super::*;
+    use crate::app::command::Command;
+    use crate::app::crew::{Crew, Inline};
+    use crate::app::history::Hand;
+
+    fn app(stored: Option<&str>) -> App {
+        let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
+        App::new(&egui::Context::default(), stored, crew)
+    }
+
+    fn act(app: &mut App, action: Action) {
+        app.history.begin_frame(Hand::default());
+        app.step(Command::Lesson(action), Hand::default());
+    }
+
+    fn tongue() -> LessonId {
+        LessonId::named("first-tongue").expect("a lesson")
+    }
+
+    #[test]
+    fn steps_set_the_page_and_are_undone() {
+        let mut app = app(None);
+        app.view.design.mode = 3;
+        let before = app.view.clone();
+        act(&mut app, Action::Begin(tongue()));
+        assert_eq!((app.view.lesson, app.view.step), (Some(tongue()), 1));
+        assert_eq!((app.view.scenario.parameters.beta, app.view.design.mode), (5e-4, 3));
+        act(&mut app, Action::GoTo(2));
+        assert_eq!((app.view.step, app.view.scenario.parameters.beta), (2, 1e-3));
+        act(&mut app, Action::Show);
+        assert_eq!((app.view.step, app.view.scenario.parameters.omega), (2, 8.1569));
+        act(&mut app, Action::Restart);
+        assert_eq!(app.view.scenario.parameters.omega, 8.0969);
+        act(&mut app, Action::GoTo(99));
+        assert_eq!((app.view.step, app.view.tab), (4, Tab::Stability));
+        act(&mut app, Action::Leave);
+        assert_eq!((app.view.lesson, app.view.step, app.view.tab), (None, 1, Tab::Stability));
+        for _ in 0..6 {
+            app.undo();
+        }
+        assert_eq!(app.view, before);
+    }
+
+    #[test]
+    fn a_goal_is_reached_by_whatever_way_and_stays_so() {
+        let mut app = app(None);
+        act(&mut app, Action::Begin(LessonId::named("resonance").expect("a lesson")));
+        act(&mut app, Action::GoTo(4));
+        let look = |app: &mut App| app.course.look(&app.view, &app.session, None);
+        assert!(!look(&mut app));
+        // By hand; the rest of the goal needs no verdict.
+        app.view.scenario.parameters.beta = 4.1e-5;
+        assert!(look(&mut app));
+        app.view.scenario.parameters.beta = 2e-5;
+        assert!(!look(&mut app) && app.course.progress(&app.view).reached);
+        act(&mut app, Action::Answer(1));
+        act(&mut app, Action::GoTo(1));
+        assert_eq!(app.course.progress(&app.view), Progress::default());
+        act(&mut app, Action::GoTo(4));
+        assert_eq!(app.course.progress(&app.view), Progress { reached: true, answer: Some(1) });
+        // What was done in one lesson is not done in another, nor when it begins again.
+        act(&mut app, Action::Begin(tongue()));
+        assert_eq!(app.course.progress(&app.view), Progress::default());
+    }
+
+    #[test]
+    fn finished_lessons_are_remembered_and_are_no_part_of_links_and_files() {
+        let mut first = app(None);
+        act(&mut first, Action::Begin(tongue()));
+        act(&mut first, Action::Finish);
+        assert_eq!((first.view.lesson, first.view.tab), (None, Tab::Lessons));
+        assert!(!first.fragment().contains("tongue"), "{}", first.fragment());
+        let stored = first.stored();
+        let next = app(Some(&stored));
+        assert!(next.course.is_finished(tongue()) && next.notice.is_none());
+        assert_eq!(next.stored(), stored);
+        // Lessons of another version are forgotten.
+        let other = stored.replace("first-tongue", "last-tongue");
+        assert!(!app(Some(&other)).course.is_finished(tongue()));
+    }
+
+    #[test]
+    fn a_link_with_a_lesson_alone_begins_its_step_and_one_with_more_shows_that() {
+        let mut app = app(None);
+        app.open_link("#v=1&lesson=first-tongue&step=2");
+        assert_eq!((app.view.step, app.view.scenario.parameters.beta), (2, 1e-3));
+        app.open_link("#v=1&lesson=first-tongue&step=2&beta=0.003&omega=8.1");
+        assert_eq!((app.view.step, app.view.scenario.parameters.beta), (2, 3e-3));
+        app.open_link("#v=1&lesson=juggling");
+        let notice = app.notice.take().expect("a notice");
+        assert!(notice.contains("lesson = juggling (allowed are resonance, quadratic,"), "{notice}");
+    }
+}

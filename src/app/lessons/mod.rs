@@ -22,22 +22,17 @@ pub const STEPS: usize = 12;
 pub const LANGUAGE: &str = "en";
 
 /// Names and texts of the lessons, in the order in which they are offered.
-macro_rules! sources {
-    ($($name:literal),+ $(,)?) => {
-        [$(($name, include_str!(concat!("../../../assets/lessons/", $name, ".json")))),+]
-    };
-}
-const SOURCES: [(&str, &str); 10] = sources![
-    "resonance",
-    "quadratic",
-    "first-tongue",
-    "period-doubling",
-    "torus",
-    "difference",
-    "boundaries",
-    "basins",
-    "escape",
-    "harvest",
+const SOURCES: [(&str, &str); 10] = [
+    ("resonance", include_str!("../../../assets/lessons/resonance.json")),
+    ("quadratic", include_str!("../../../assets/lessons/quadratic.json")),
+    ("first-tongue", include_str!("../../../assets/lessons/first-tongue.json")),
+    ("period-doubling", include_str!("../../../assets/lessons/period-doubling.json")),
+    ("torus", include_str!("../../../assets/lessons/torus.json")),
+    ("difference", include_str!("../../../assets/lessons/difference.json")),
+    ("boundaries", include_str!("../../../assets/lessons/boundaries.json")),
+    ("basins", include_str!("../../../assets/lessons/basins.json")),
+    ("escape", include_str!("../../../assets/lessons/escape.json")),
+    ("harvest", include_str!("../../../assets/lessons/harvest.json")),
 ];
 
 /// A lesson by its name.

@@ -12,7 +12,7 @@ use crate::app::widgets::{BadgeKind, badge};
 use crate::app::{fonts, theme};
 
 /// Least width and height of a card.
-const WIDTH: f32 = 270.0;
+const WIDTH: f32 = 330.0;
 const HEIGHT: f32 = 128.0;
 const MARGIN: f32 = 14.0;
 /// Widest that the introduction runs.
