@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use self::design::DesignView;
 use super::figures::{self, Figure};
-use super::lessons::LessonId;
+use super::lessons::{LessonId, STEPS};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::study::curves;
 use crate::jobs::study::sweep::COUNTS;
@@ -264,6 +264,10 @@ impl View {
         }
         dwell.validate().map_err(part("sweep"))?;
         self.design.check().map_err(part("design"))?;
+        if !(1..=STEPS).contains(&self.step) {
+            let (field, value) = ("step", self.step);
+            return Err(part(field)(ModelError::Count { field, value, minimum: 1, maximum: STEPS }));
+        }
         let [x, y] = self.plane;
         if x == y || ![x, y].iter().all(|axis| curves::PARAMETERS.contains(axis)) {
             let allowed = curves::PARAMETERS.map(Parameter::field).join(", ");
@@ -305,7 +309,13 @@ mod tests {
         let view = View { tab: Tab::Paper, projector: true, ..Default::default() };
         let text = serde_json::to_string(&view).expect("a view is plain data");
         assert_eq!(View::restore(Some(&text)), (view, None));
-        for garbage in ["", "{", "[1]", r#"{"scenario":{"parameters":{"beta":7}}}"#] {
+        for garbage in [
+            "",
+            "{",
+            "[1]",
+            r#"{"scenario":{"parameters":{"beta":7}}}"#,
+            r#"{"scenario":{},"step":1000000000}"#,
+        ] {
             let (view, message) = View::restore(Some(garbage));
             assert_eq!(view, View::default());
             assert!(message.is_some_and(|message| message.contains("could not be used")));

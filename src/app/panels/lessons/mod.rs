@@ -2,6 +2,8 @@
 
 mod guide;
 mod list;
+#[cfg(test)]
+mod tests;
 mod text;
 
 pub(in crate::app) use guide::guide;
