@@ -68,7 +68,7 @@ impl LessonId {
     /// What it says; `None` when its file is no lesson, which a test rules out.
     pub fn lesson(self) -> Option<&'static Lesson> {
         static LESSONS: OnceLock<Vec<Option<Lesson>>> = OnceLock::new();
-        let read = || Self::all().map(|id| serde_json::from_str(id.source()).ok()).collect();
+        let read = || Self::all().map(|id| Lesson::read(id.source())).collect();
         LESSONS.get_or_init(read).get(self.0)?.as_ref()
     }
 }
