@@ -1,6 +1,7 @@
 //! What panels ask for. They draw from shared references and push commands; one place carries them out.
 
 use super::bench::measured::Reading;
+use super::lessons::course::Action;
 use super::view::design::DesignView;
 use super::view::{Layer, MapWindow, Panel, SweepView, Tab};
 use crate::model::Parameter;
@@ -25,6 +26,8 @@ pub(super) enum Command {
     Design(Box<DesignView>),
     /// Take a changed device over, or say why it is none.
     Adopt(Result<Box<Scenario>, String>),
+    /// Go on in the lessons.
+    Lesson(Action),
     /// Begin the search for a design, or end it.
     Find(bool),
     /// Read the file's columns so, or close it.

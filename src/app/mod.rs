@@ -6,6 +6,7 @@
 #[cfg(target_arch = "wasm32")]
 pub mod bridge;
 pub mod fonts;
+pub mod lessons;
 pub mod link;
 pub mod theme;
 pub mod view;
@@ -38,6 +39,7 @@ use egui::{Margin, Ui};
 use bench::Bench;
 use command::{Command, Commands};
 use crew::Crew;
+use lessons::Course;
 use panels::Context;
 use session::{Session, Status};
 use sharing::Errand;
@@ -54,6 +56,7 @@ pub struct App {
     session: Session,
     crew: Rc<RefCell<Crew>>,
     bench: Bench,
+    course: Course,
     notice: Option<String>,
     history: history::History<steps::Moment>,
     /// The page's own address, without a fragment; empty outside a browser.
@@ -71,10 +74,11 @@ impl App {
         let (view, notice) = View::restore(stored);
         let mut session = Session::default();
         session.ask(&view.scenario);
-        let bench = Bench::default();
+        let (bench, course) = (Bench::default(), Course::restore(stored));
         let history = history::History::default();
         let (address, errands) = (String::new(), Vec::new());
-        let mut app = Self { view, session, crew, bench, notice, history, address, errands, styled: None };
+        let mut app =
+            Self { view, session, crew, bench, course, notice, history, address, errands, styled: None };
         app.style(context);
         app
     }
@@ -83,6 +87,7 @@ impl App {
     pub fn logic(&mut self, context: &egui::Context) {
         self.session.work();
         self.study(context);
+        self.check_goal(context);
         if self.bench.measured.work() {
             context.request_repaint();
         }
@@ -107,6 +112,16 @@ impl App {
         }
     }
 
+    /// Looks whether the user has done what the running lesson asks for.
+    fn check_goal(&mut self, context: &egui::Context) {
+        let crew = self.crew.borrow();
+        let found = crew.studies.inspection(&self.view.scenario).filter(|(_, current)| *current);
+        let verdict = found.map(|(found, _)| &found.verdict);
+        if self.course.look(&self.view, &self.session, verdict) {
+            context.request_repaint();
+        }
+    }
+
     /// Gives the crew what the view asks for now, without waiting for the next frame.
     fn follow(&mut self) {
         let mut crew = self.crew.borrow_mut();
@@ -127,6 +142,7 @@ impl App {
             session: &self.session,
             studies: &crew.studies,
             bench: &self.bench,
+            course: &self.course,
             address: &self.address,
             steps: self.history.can(),
             commands: &mut commands,
@@ -157,6 +173,7 @@ impl App {
             Command::Design(design) => self.view.design = *design,
             Command::Adopt(Ok(scenario)) => self.show(*scenario),
             Command::Adopt(Err(reason)) => self.bench.refusal = Some(reason),
+            Command::Lesson(action) => self.follow_lesson(action),
             Command::Find(begin) => {
                 let question = begin.then(|| bench::questions::find(&self.view, &self.session));
                 let begun = self.crew.borrow_mut().studies.bench.search(question, &self.view);
@@ -247,7 +264,9 @@ impl App {
 
     /// What a later session needs to continue here.
     pub fn stored(&self) -> String {
-        serde_json::to_string(&self.view).unwrap_or_default()
+        let mut value = self.view.to_value();
+        self.course.store(&mut value);
+        value.to_string()
     }
 }
 
@@ -266,10 +285,15 @@ fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
             draw_notice(context, ui, message);
         });
     }
+    panels::lessons::guide(context, ui);
     if ui.available_width() < STACKED {
         let page = page.inner_margin(Margin { left: 12, right: 0, top: 10, bottom: 10 });
         egui::CentralPanel::default().frame(page).show(ui, |ui| {
             scrolled(ui, |ui| {
+                // A list to choose from needs no sliders above it.
+                if context.view.tab == Tab::Lessons {
+                    return draw_tab(context, ui);
+                }
                 panels::controls::above(context, ui);
                 ui.add_space(8.0);
                 draw_tab(context, ui);
@@ -308,6 +332,7 @@ fn draw_tab(context: &mut Context<'_>, ui: &mut Ui) {
         Tab::Sweep => panels::sweep::show(context, ui),
         Tab::Design => panels::design::show(context, ui),
         Tab::Paper => panels::paper::show(context, ui),
+        Tab::Lessons => panels::lessons::show(context, ui),
     }
 }
 

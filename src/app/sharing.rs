@@ -1,6 +1,7 @@
 //! Links and scenario files: what goes out of the page, and what comes in.
 
 use super::App;
+use super::lessons::course;
 use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
@@ -47,6 +48,11 @@ impl App {
     pub fn open_link(&mut self, fragment: &str) {
         let (view, problems) = link::read(fragment, &self.view);
         // A link that was made here names the window of the map unless it is the usual one; one written by hand may not.
+        // A link that names a lesson and nothing else begins its step.
+        let (plain, _) = link::read("v=1", &self.view);
+        let begins = view.lesson.is_some() && view == View { lesson: view.lesson, step: view.step, ..plain };
+        let set = begins.then(|| course::step(&view)?.view.as_deref()).flatten();
+        let (view, fragment) = set.map_or((view.clone(), fragment), |set| (course::view_of(set, &view), set));
         self.replace(view, !fragment.contains("map="));
         if let Some(complaint) = link::complaint(&problems) {
             self.notice = Some(complaint);

@@ -75,6 +75,16 @@ impl App {
     /// Shows another view, as one step. The window of the map follows the point, where `follows`.
     pub(super) fn replace(&mut self, view: View, follows: bool) {
         let before = self.moment();
+        self.place(view, follows);
+        if before != self.moment() {
+            self.history.begin_frame(Hand::default());
+            self.history.note(before, Hand::default());
+        }
+        self.follow();
+    }
+
+    /// Shows another view as a part of a step.
+    pub(super) fn place(&mut self, view: View, follows: bool) {
         if follows {
             self.view = View { scenario: self.view.scenario.clone(), ..view.clone() };
             self.show(view.scenario);
@@ -82,11 +92,6 @@ impl App {
             self.session.ask(&view.scenario);
             self.view = view;
         }
-        if before != self.moment() {
-            self.history.begin_frame(Hand::default());
-            self.history.note(before, Hand::default());
-        }
-        self.follow();
     }
 
     pub(super) fn undo(&mut self) {

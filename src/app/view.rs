@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use self::design::DesignView;
 use super::figures::{self, Figure};
+use super::lessons::{LessonId, STEPS};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::study::curves;
 use crate::jobs::study::sweep::COUNTS;
@@ -29,6 +30,8 @@ pub enum Tab {
     Design,
     /// The paper's figures and tables.
     Paper,
+    /// The list of guided lessons.
+    Lessons,
 }
 
 /// Which part of the (omega, beta) plane the stability map shows.
@@ -184,6 +187,10 @@ pub struct View {
     pub plane: [Parameter; 2],
     /// The Design tab.
     pub design: DesignView,
+    /// The running lesson.
+    pub lesson: Option<LessonId>,
+    /// Its step, from 1; the last one when there are fewer.
+    pub step: usize,
 }
 
 impl Default for View {
@@ -202,6 +209,8 @@ impl Default for View {
             sweep: SweepView::default(),
             plane: [Parameter::Omega, Parameter::Beta],
             design: DesignView::default(),
+            lesson: None,
+            step: 1,
         }
     }
 }
@@ -255,6 +264,10 @@ impl View {
         }
         dwell.validate().map_err(part("sweep"))?;
         self.design.check().map_err(part("design"))?;
+        if !(1..=STEPS).contains(&self.step) {
+            let (field, value) = ("step", self.step);
+            return Err(part(field)(ModelError::Count { field, value, minimum: 1, maximum: STEPS }));
+        }
         let [x, y] = self.plane;
         if x == y || ![x, y].iter().all(|axis| curves::PARAMETERS.contains(axis)) {
             let allowed = curves::PARAMETERS.map(Parameter::field).join(", ");
@@ -296,7 +309,13 @@ mod tests {
         let view = View { tab: Tab::Paper, projector: true, ..Default::default() };
         let text = serde_json::to_string(&view).expect("a view is plain data");
         assert_eq!(View::restore(Some(&text)), (view, None));
-        for garbage in ["", "{", "[1]", r#"{"scenario":{"parameters":{"beta":7}}}"#] {
+        for garbage in [
+            "",
+            "{",
+            "[1]",
+            r#"{"scenario":{"parameters":{"beta":7}}}"#,
+            r#"{"scenario":{},"step":1000000000}"#,
+        ] {
             let (view, message) = View::restore(Some(garbage));
             assert_eq!(view, View::default());
             assert!(message.is_some_and(|message| message.contains("could not be used")));

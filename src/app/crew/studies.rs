@@ -137,11 +137,18 @@ impl Studies {
     /// Asks for what the view shows.
     pub(in crate::app) fn follow(&mut self, view: &View, session: &Session) {
         let ceiling = map::ceiling(view.map, view.scenario.parameters.beta);
-        if view.tab == Tab::Design {
+        let designs = view.tab == Tab::Design;
+        if designs {
             self.bench.follow(view, session);
+        }
+        // The goals of a lesson are checked by the verdict, on whatever tab.
+        if designs && view.lesson.is_none() {
             return;
         }
         offer(&mut self.inspection, Work::Inspect { scenario: view.scenario.clone() });
+        if designs {
+            return;
+        }
         if view.scenario.model.modes > 1 {
             self.ask_tongues(&view.scenario, ceiling);
         }

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::number;
+use crate::app::lessons::STEPS;
 use crate::app::view::View;
 use crate::app::view::design::{FREQUENCIES, POWERS};
 use crate::dynamics::sweep::Dwell;
@@ -110,6 +111,8 @@ pub(super) fn fields() -> Vec<Field> {
         add(&format!("/design/search/{side}/range"), Kind::Numbers(Some(2), (0.0, f64::MAX)));
     }
     add("/design/search/generations", Kind::Whole(GENERATIONS.0, GENERATIONS.1));
+    add("/lesson", Kind::Word);
+    add("/step", Kind::Whole(1, STEPS));
     add("/dark", Kind::Flag);
     add("/projector", Kind::Flag);
     add("/beam_moves", Kind::Flag);

@@ -11,6 +11,7 @@ pub(super) mod evidence;
 pub(super) mod explore;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
+pub(super) mod lessons;
 pub(super) mod multipliers;
 pub(super) mod orbit_diagram;
 pub(super) mod paper;
@@ -32,6 +33,7 @@ pub(super) mod verdict;
 use super::bench::Bench;
 use super::command::{Command, Commands};
 use super::crew::Studies;
+use super::lessons::Course;
 use super::session::{Session, Shown, Status};
 use super::view::{Panel, View};
 use super::widgets::{Card, Icon};
@@ -42,6 +44,7 @@ pub(super) struct Context<'a> {
     pub session: &'a Session,
     pub studies: &'a Studies,
     pub bench: &'a Bench,
+    pub course: &'a Course,
     /// The page's own address, without a fragment.
     pub address: &'a str,
     /// Whether there is a step to take back, and one to take again.

@@ -31,8 +31,9 @@ const HOLDS: [(Dwell, &str); 3] = [
     (Dwell { discarded: 1000, kept: 128 }, "1000 + 128"),
 ];
 const COUNTS: [(usize, &str); 3] = [(120, "120"), (240, "240"), (600, "600")];
-/// Width from which the choices stand in one row.
+/// Widths from which the choices stand in two rows, and in one.
 const WIDE: f32 = 700.0;
+const WIDEST: f32 = 980.0;
 
 /// Draws the tab.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -63,7 +64,8 @@ pub(super) fn title(parameter: Parameter) -> (&'static str, &'static str) {
 
 fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     let mut sweep = context.view.sweep;
-    let wide = ui.available_width() >= WIDE;
+    let width = ui.available_width();
+    let (wide, halved) = (width >= WIDE, (WIDE..WIDEST).contains(&width));
     Card::new("").hugging().show(ui, |ui| {
         let mut rows = |ui: &mut Ui| {
             choice(ui, "sweep", |ui| {
@@ -74,6 +76,9 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
             choice(ui, "values", |ui| {
                 chips(ui, "Number of values", &mut sweep.count, &COUNTS);
             });
+            if halved {
+                ui.end_row();
+            }
             choice(ui, "periods dropped + kept", |ui| {
                 chips(ui, "Periods", &mut sweep.dwell, &HOLDS);
             });

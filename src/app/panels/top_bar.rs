@@ -65,6 +65,7 @@ fn choose_tab(context: &mut Context<'_>, ui: &mut Ui) {
         (Tab::Sweep, "Sweep"),
         (Tab::Design, "Design"),
         (Tab::Paper, "Paper"),
+        (Tab::Lessons, "Lessons"),
     ];
     if tabs(ui, &mut tab, &all) {
         context.commands.push(Command::OpenTab(tab));

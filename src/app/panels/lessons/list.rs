@@ -1,0 +1,93 @@
+//! The list of lessons: a card each, with what it is about, how long it takes, and whether it is done.
+
+use egui::{Align, Layout, Rect, Response, RichText, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+
+use super::super::Context;
+use super::text;
+use crate::app::command::Command;
+use crate::app::lessons::course::Action;
+use crate::app::lessons::{Lesson, LessonId};
+use crate::app::panels::explore::GAP;
+use crate::app::widgets::{BadgeKind, badge};
+use crate::app::{fonts, theme};
+
+/// Least width and height of a card.
+const WIDTH: f32 = 330.0;
+const HEIGHT: f32 = 128.0;
+const MARGIN: f32 = 14.0;
+/// Widest that the introduction runs.
+const MEASURE: f32 = 760.0;
+
+/// Draws the tab.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    introduction(context, ui);
+    ui.add_space(GAP);
+    let columns = (((ui.available_width() + GAP) / (WIDTH + GAP)) as usize).clamp(1, 4);
+    let width = ((ui.available_width() - GAP * (columns - 1) as f32) / columns as f32).floor();
+    let lessons: Vec<_> = LessonId::all().filter_map(|id| Some((id, id.lesson()?))).collect();
+    for row in lessons.chunks(columns) {
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            for (id, lesson) in row {
+                if card(context, ui, *id, lesson, width).clicked() {
+                    context.commands.push(Command::Lesson(Action::Begin(*id)));
+                }
+            }
+        });
+        ui.add_space(GAP - ui.spacing().item_spacing.y);
+    }
+}
+
+fn introduction(context: &Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let done = LessonId::all().filter(|id| context.course.is_finished(*id)).count();
+    ui.horizontal_wrapped(|ui| {
+        let title = RichText::new("Guided lessons").font(fonts::semibold(theme::size::HEADING));
+        ui.label(title.color(tokens.text_strong));
+        if done > 0 {
+            badge(ui, BadgeKind::Converged, &format!("{done} of {} done", LessonId::all().count()));
+        }
+    });
+    ui.scope(|ui| {
+        ui.set_max_width(MEASURE.min(ui.available_width()));
+        let words = "From linear resonance to energy from a doubled period. Each lesson sets the page, gives you \
+                     something to do, and says why it came out so. A lesson can be left at any step; Undo brings \
+                     back what you had before.";
+        text::paragraph(ui, words, tokens.text_weak);
+    });
+}
+
+/// A card to click.
+fn card(context: &Context<'_>, ui: &mut Ui, id: LessonId, lesson: &Lesson, width: f32) -> Response {
+    let tokens = theme::tokens(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT), Sense::click());
+    let (done, runs) = (context.course.is_finished(id), context.view.lesson == Some(id));
+    let title = lesson.title.get();
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, format!("Begin: {title}")));
+    let lit = response.hovered() || response.has_focus();
+    let edge = if runs || lit { tokens.accent } else { tokens.outline };
+    let fill = if lit { tokens.field } else { tokens.card };
+    let stroke = egui::Stroke::new(1.0, edge);
+    ui.painter().rect(rect, theme::radius::CARD, fill, stroke, egui::StrokeKind::Inside);
+    let inner = rect.shrink(MARGIN);
+    let foot = Rect::from_min_max(pos2(inner.left(), inner.bottom() - 21.0), inner.max);
+    let down = Layout::top_down(Align::Min);
+    let mut head = ui.new_child(UiBuilder::new().max_rect(inner.with_max_y(foot.top())).layout(down));
+    head.spacing_mut().item_spacing.y = 4.0;
+    let heading = RichText::new(format!("{}  {title}", id.number()));
+    let heading = heading.font(fonts::semibold(theme::size::TITLE)).color(tokens.text_strong);
+    head.add(egui::Label::new(heading).wrap().selectable(false));
+    let summary = text::job(&head, lesson.summary.get(), tokens.text);
+    head.add(egui::Label::new(summary).wrap().selectable(false));
+    let mut foot = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
+    let length = format!("{} steps  ·  {} min", lesson.steps.len(), lesson.minutes);
+    foot.label(RichText::new(length).small().color(tokens.text_weak));
+    foot.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        if runs {
+            badge(ui, BadgeKind::Neutral, "running");
+        } else if done {
+            badge(ui, BadgeKind::Converged, "done");
+        }
+    });
+    response.on_hover_cursor(egui::CursorIcon::PointingHand)
+}

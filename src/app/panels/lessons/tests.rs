@@ -1,0 +1,83 @@
+//! List and guide, drawn without a window.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use egui::{Rect, Role, pos2};
+
+use crate::app::App;
+use crate::app::crew::{Crew, Inline};
+use crate::app::lessons::LessonId;
+use crate::app::widgets::harness::{Harness, Node};
+
+fn app(harness: &Harness, view: &str) -> App {
+    let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
+    let stored = format!(r#"{{"scenario":{{"t_end":50}},{view}}}"#);
+    App::new(&harness.context, Some(&stored), crew)
+}
+
+fn frames(app: &mut App, harness: &mut Harness, count: usize) {
+    for _ in 0..count {
+        let context = harness.context.clone();
+        app.logic(&context);
+        harness.frame(Vec::new(), |ui| app.ui(ui));
+    }
+}
+
+#[test]
+fn every_card_holds_its_texts_at_every_width() {
+    for width in [360.0, 768.0, 1024.0, 1280.0, 1440.0, 1920.0] {
+        let mut harness = Harness::new(width, 2400.0);
+        let mut app = app(&harness, r#""tab":"lessons""#);
+        frames(&mut app, &mut harness, 3);
+        for id in LessonId::all() {
+            let lesson = id.lesson().expect("a lesson");
+            let card = harness.find(Role::Button, &format!("Begin: {}", lesson.title.get())).bounds;
+            let texts: Vec<&Node> = harness
+                .nodes
+                .iter()
+                .filter(|node| node.role == Role::Label && card.contains(node.bounds.left_top()))
+                .collect();
+            assert_eq!(texts.len(), 3, "{id} at {width}: title, summary, length");
+            for (i, a) in texts.iter().enumerate() {
+                assert!(card.contains_rect(a.bounds), "{id} at {width}: {a:?} leaves {card:?}");
+                for b in &texts[i + 1..] {
+                    let common = a.bounds.shrink(1.0).intersect(b.bounds.shrink(1.0));
+                    assert!(!common.is_positive(), "{id} at {width}: {a:?} over {b:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_step_has_its_buttons_on_the_page_and_leaves_room_for_the_plots() {
+    for (width, height) in [(360.0, 760.0), (1024.0, 768.0), (1440.0, 900.0)] {
+        let page = Rect::from_min_size(pos2(0.0, 0.0), egui::vec2(width, height));
+        for id in LessonId::all() {
+            let lesson = id.lesson().expect("a lesson");
+            for step in 1..=lesson.steps.len() {
+                let mut harness = Harness::new(width, height);
+                let view = format!(r#""lesson":"{id}","step":{step}"#);
+                let mut app = app(&harness, &view);
+                frames(&mut app, &mut harness, 4);
+                let next = if step == lesson.steps.len() { "Finish" } else { "Next" };
+                for label in ["Leave the lesson", "Back", next] {
+                    let bounds = harness.find(Role::Button, label).bounds;
+                    assert!(
+                        page.contains_rect(bounds),
+                        "{id}, step {step}, at {width}: {label} at {bounds:?}"
+                    );
+                }
+                // Beside the plots or below them, they keep more than half of the page.
+                let leave = harness.find(Role::Button, "Leave the lesson").bounds;
+                let beside = width >= 1200.0;
+                let room = if beside { leave.right() - 320.0 } else { leave.top() };
+                assert!(
+                    room > 0.5 * if beside { width } else { height },
+                    "{id}, step {step}, at {width}: {room}"
+                );
+            }
+        }
+    }
+}
