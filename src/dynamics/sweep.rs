@@ -3,7 +3,8 @@
 //! A value is held for a number of excitation periods that are thrown away and a number that are kept. The state at
 //! the end, taken at a stroboscopic instant, is where the next value starts, in the same phase of the excitation: q,
 //! dq/dt and v are carried over as they are, also when a change of structure changes the modes a little. After an
-//! escape or a contact there is nothing to carry, and the next value starts from the sweep's own start.
+//! escape or a contact there is nothing to carry, and the next value starts from the sweep's own start. A value that
+//! starts so has no settled neighbour: it is given [`SETTLING`] times as long before its motion counts.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +13,9 @@ use super::summary::Collector;
 use super::{Collocation, IntegrationError, Outcome, Settings};
 use crate::model::{ModelError, Parameter, ReducedSystem};
 use crate::scenario::Scenario;
+
+/// How many times longer the transient of a value that starts from the sweep's own start may take.
+pub const SETTLING: usize = 5;
 
 /// How long each value is held, in excitation periods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
@@ -94,7 +98,10 @@ pub fn sweep(
         let restarted = carried.is_none();
         let from = carried.as_ref().unwrap_or(&start);
         let held = match scenario.model.system(set) {
-            Ok(system) => hold(&system, from, dwell)?,
+            Ok(system) => {
+                let longer = Dwell { discarded: SETTLING * dwell.discarded, ..dwell };
+                hold(&system, from, if restarted { longer } else { dwell })?
+            }
             // A value out of its own range is a wrong question; a device that cannot be is a gap.
             Err(reason @ (ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
                 return Err(reason.into());

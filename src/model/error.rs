@@ -51,7 +51,7 @@ pub enum ModelError {
     },
     /// Attracting magnets pull the tip in: no equilibrium exists.
     #[error(
-        "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {c0} and h = {h} the gap d must be larger than {d}"
+        "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {c0} and h = {h} the gap d = {d:.4} must be larger than {smallest:.4}"
     )]
     PullIn {
         /// Magnet strength c_0 (dimensionless, negative: attracting).
@@ -60,6 +60,8 @@ pub enum ModelError {
         d: f64,
         /// Magnet length h (dimensionless).
         h: f64,
+        /// Smallest gap with an equilibrium (dimensionless).
+        smallest: f64,
     },
     /// The tip spring is so negative that the straight beam is unstable.
     #[error(

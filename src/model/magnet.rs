@@ -70,20 +70,20 @@ impl Magnet {
     /// that nothing is stable; if the beam cannot even hold the tip there, there is no equilibrium at all.
     fn closest_stable_distance(&self, d: f64) -> Result<f64, ModelError> {
         let stiffness = |s: f64| self.taylor_coefficient(s, 1) + BEAM_TIP_STIFFNESS;
-        let pull_in = ModelError::PullIn { c0: self.c0, d, h: self.h };
-        if stiffness(d) <= 0.0 {
-            return Err(pull_in);
+        let (mut inner, mut outer) = (d, d);
+        while stiffness(outer) <= 0.0 {
+            outer *= 2.0;
         }
-        let mut inner = d;
         while stiffness(inner) > 0.0 {
             inner *= 0.5;
             if inner < d * 1e-12 {
                 return Ok(inner);
             }
         }
-        let closest = bisect(stiffness, inner, 2.0 * inner);
-        if self.force(closest) - BEAM_TIP_STIFFNESS * (closest - d) < 0.0 {
-            return Err(pull_in);
+        let closest = bisect(stiffness, inner, outer);
+        let smallest = closest - self.force(closest) / BEAM_TIP_STIFFNESS;
+        if d < smallest {
+            return Err(ModelError::PullIn { c0: self.c0, d, h: self.h, smallest });
         }
         Ok(closest)
     }
@@ -196,7 +196,11 @@ mod tests {
     #[test]
     fn strong_attraction_is_pull_in_not_a_number() {
         let strong = Magnet { c0: -5.0, h: 0.01 };
-        assert!(matches!(strong.equilibrium(0.1), Err(ModelError::PullIn { .. })));
+        let refused = strong.equilibrium(0.1);
+        let Err(ModelError::PullIn { smallest, .. }) = refused else { panic!("{refused:?}") };
+        // The gap that the message names is where equilibria begin.
+        assert!(smallest > 0.1 && strong.equilibrium(0.999999 * smallest).is_err());
+        assert!(strong.equilibrium(1.000001 * smallest).is_ok());
     }
 
     #[test]

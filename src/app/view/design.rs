@@ -108,6 +108,21 @@ pub const FREQUENCIES: (f64, f64) = (1e-9, 1e9);
 /// Powers (W) that can be asked for.
 pub const POWERS: (f64, f64) = (1e-30, 1e30);
 
+impl SearchView {
+    /// Looks for something else. What does not depend on the frequency is not mapped over it.
+    pub fn pursue(&mut self, aim: Aim) {
+        self.aim = aim;
+        if !matches!(aim, Aim::Band | Aim::Threshold) {
+            return;
+        }
+        let taken = self.sides.map(|side| side.dimension);
+        let mut free = [Dimension::MagnetDistance, Dimension::TipMass].into_iter();
+        for side in self.sides.iter_mut().filter(|side| side.dimension == Dimension::Frequency) {
+            *side = free.find(|dimension| !taken.contains(dimension)).map_or(*side, Side::of);
+        }
+    }
+}
+
 /// The Design tab.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]

@@ -69,7 +69,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let (low, high) = extremes(map);
     ui.horizontal_wrapped(|ui| {
         if chips(ui, "Mapped", &mut aim, &choices) {
-            context.redesign(|design| design.search.aim = aim);
+            context.redesign(|design| design.search.pursue(aim));
         }
     });
     ui.horizontal(|ui| {
