@@ -22,6 +22,7 @@ mod curves;
 mod figures;
 mod history;
 mod map;
+pub mod mirror;
 mod panels;
 mod questions;
 mod reading;
