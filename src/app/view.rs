@@ -31,6 +31,17 @@ pub enum Tab {
     Paper,
 }
 
+impl Tab {
+    /// All of them in their order, with their names.
+    pub const NAMED: [(Self, &'static str); 5] = [
+        (Self::Explore, "Explore"),
+        (Self::Stability, "Stability"),
+        (Self::Sweep, "Sweep"),
+        (Self::Design, "Design"),
+        (Self::Paper, "Paper"),
+    ];
+}
+
 /// Which part of the (omega, beta) plane the stability map shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -5,6 +5,7 @@ mod axe;
 mod design;
 mod driver;
 mod failure;
+mod keyboard;
 mod mirror;
 mod offline;
 mod page;

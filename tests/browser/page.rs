@@ -39,6 +39,9 @@ pub(crate) struct Control {
     pub(crate) label: String,
     pub(crate) value: Option<String>,
     pub(crate) number: Option<f64>,
+    pub(crate) id: u64,
+    pub(crate) focusable: bool,
+    pub(crate) focused: bool,
     pub(crate) bounds: [f64; 4],
 }
 
