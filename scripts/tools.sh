@@ -54,6 +54,16 @@ or put binaryen $wanted on the PATH (https://github.com/WebAssembly/binaryen/rel
   npm ci --no-audit --no-fund --loglevel=error
 }
 
+# axe-core, which the browser tests put into the page.
+axe() {
+  local wanted
+  wanted="$(sed -n 's/.*"axe-core": "\([0-9.]*\)".*/\1/p' package.json)"
+  grep -qs "\"version\": \"$wanted\"" node_modules/axe-core/package.json && return
+  have npm || die "the browser tests need axe-core $wanted, and npm to fetch it: install node with npm"
+  say "fetching axe-core $wanted into node_modules (a minute, once)"
+  npm ci --no-audit --no-fund --loglevel=error
+}
+
 chromium_() {
   have "${CHROMEDRIVER:-chromedriver}" && { have "${CHROMIUM:-chromium}" || have chromium-browser || have google-chrome; } && return
   local advice="the browser tests need Chromium and chromedriver: apt-get install chromium chromium-driver, \
@@ -71,7 +81,7 @@ rust
 case "${1:-page}" in
   dev) trunk_; bindgen ;;
   page) trunk_; bindgen; wasm_opt ;;
-  test) trunk_; bindgen; wasm_opt; chromium_ ;;
-  browser) chromium_ ;;
+  test) trunk_; bindgen; wasm_opt; axe; chromium_ ;;
+  browser) axe; chromium_ ;;
   *) die "tools.sh dev|page|test|browser" ;;
 esac

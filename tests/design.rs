@@ -222,6 +222,22 @@ fn a_search_finds_more_power_within_its_limits_and_the_same_again() -> TestResul
 }
 
 #[test]
+fn a_stopped_search_keeps_the_best_so_far_and_asks_for_nothing_more() -> TestResult {
+    let mut study = FindStudy::new(question(Objective::Power, Limits::default()), 500, 7)?;
+    while study.history().len() < 2 {
+        let (ticket, work) = study.next().ok_or("a candidate")?;
+        study.take(ticket, work.carry_out());
+    }
+    let (late, work) = study.next().ok_or("a candidate")?;
+    let (best, visited) = (study.best().cloned(), study.visited().len());
+    study.stop();
+    study.take(late, work.carry_out());
+    assert!(study.finished() && study.next().is_none() && study.failure().is_none());
+    assert!(best.is_some() && study.best() == best.as_ref() && study.visited().len() == visited);
+    Ok(())
+}
+
+#[test]
 fn candidates_without_a_device_are_answers_and_bad_questions_errors() -> TestResult {
     let good = question(Objective::Voltage, Limits::default());
     // A beam so soft that it sags to the fixed magnet.

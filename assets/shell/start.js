@@ -2,6 +2,7 @@
 
 // The app writes its state under this key (src/app/bridge/storage.rs).
 const KEY = "harvester-lab.v1";
+const STOPPED = "Harvester Lab stopped";
 const root = document.documentElement;
 const element = (id) => document.getElementById(id);
 
@@ -18,6 +19,8 @@ function fail(title, detail) {
   if (root.dataset.phase === "failed") return;
   root.dataset.phase = "failed";
   const state = stored();
+  // Shown first, filled then: so it is read out.
+  element("failure").hidden = false;
   element("failure-title").textContent = title;
   element("failure-detail").textContent = detail;
   element("failure-advice").textContent = state
@@ -25,7 +28,7 @@ function fail(title, detail) {
     : "";
   element("copy-state").hidden = !state;
   element("start-over").hidden = !state;
-  element("failure").hidden = false;
+  element("reload").focus();
 }
 
 async function copyState() {
@@ -48,6 +51,12 @@ function startOver() {
   location.reload();
 }
 
+// The compiled code cannot go on after any of these; a panic has told its own story before it stops there.
+function stopped({ error, reason }) {
+  const what = error ?? reason;
+  if (what instanceof WebAssembly.RuntimeError || what instanceof RangeError) fail(STOPPED, what.message);
+}
+
 function missing() {
   if (typeof WebAssembly !== "object") return "WebAssembly";
   // The app gets this very context: egui smooths its own edges, and multisampling costs a software renderer a core.
@@ -62,6 +71,11 @@ async function start() {
     fail("This browser cannot show Harvester Lab", `${lacking} is missing or switched off.`);
     return;
   }
+  addEventListener("error", stopped);
+  addEventListener("unhandledrejection", stopped);
+  element("canvas").addEventListener("webglcontextlost", () => {
+    fail(STOPPED, "The graphics card or its driver gave the page up.");
+  });
   const app = await import(element("module").href);
   await app.default({ module_or_path: element("wasm").href });
   const keep = () => {
@@ -73,6 +87,9 @@ async function start() {
     state: app.state,
     load: app.load,
     solve: app.solve,
+    change: app.change,
+    undo: app.undo,
+    redo: app.redo,
     frames: app.frames,
     controls: app.controls,
   });
@@ -80,7 +97,22 @@ async function start() {
 
 window.harvesterShell = Object.freeze({
   ready: () => {
-    if (root.dataset.phase === "loading") root.dataset.phase = "ready";
+    if (root.dataset.phase !== "loading") return;
+    root.dataset.phase = "ready";
+    // The field into which the app has texts typed; it comes and goes by the canvas, not by Tab.
+    const typed = element("canvas").nextElementSibling;
+    typed.tabIndex = -1;
+    typed.setAttribute("aria-label", "Text typed into the picture");
+  },
+  // Tells whoever listens; what is costly to make is made when it is looked at.
+  changed: (mirror) => {
+    const detail = Object.freeze({
+      mirror: JSON.parse(mirror),
+      get state() {
+        return window.harvester.state();
+      },
+    });
+    dispatchEvent(new CustomEvent("harvester:change", { detail }));
   },
   fail,
   // A worker that runs the page's own module, compiled only once.

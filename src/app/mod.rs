@@ -22,7 +22,9 @@ pub mod crew;
 mod curves;
 mod figures;
 mod history;
+mod keyboard;
 mod map;
+pub mod mirror;
 mod panels;
 mod questions;
 mod reading;
@@ -135,7 +137,8 @@ impl App {
         let mut commands = Commands::new();
         let hand = steps::hand(ui.ctx());
         self.history.begin_frame(hand);
-        steps::shortcuts(ui.ctx(), &mut commands);
+        let (pinned, dark) = (self.session.pinned.is_some(), theme::tokens(ui).dark);
+        keyboard::shortcuts(ui.ctx(), &self.view, pinned, dark, &mut commands);
         let crew = self.crew.borrow();
         let mut context = Context {
             view: &self.view,
@@ -148,6 +151,7 @@ impl App {
             commands: &mut commands,
         };
         draw(&mut context, self.notice.as_deref(), ui);
+        panels::shortcuts::show(ui);
         drop(crew);
         if commands.is_empty() {
             return;
@@ -321,7 +325,10 @@ fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
 fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let margin = Margin { right: 12, ..Margin::ZERO };
-        egui::Frame::new().inner_margin(margin).show(ui, contents);
+        egui::Frame::new().inner_margin(margin).show(ui, |ui| {
+            keyboard::keep_focus_in_view(ui);
+            contents(ui);
+        });
     });
 }
 

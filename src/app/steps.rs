@@ -5,10 +5,10 @@
 
 use std::rc::Rc;
 
-use egui::{Event, Key, Modifiers};
+use egui::Event;
 
 use super::App;
-use super::command::{Command, Commands};
+use super::command::Command;
 use super::history::Hand;
 use super::session::Shown;
 use super::view::View;
@@ -37,23 +37,6 @@ pub(super) fn hand(context: &egui::Context) -> Hand {
             holds: pointer.any_down() || pointer.any_released() || !input.keys_down.is_empty(),
         }
     })
-}
-
-/// Control-Z and its kin, unless a text is being typed, which has its own.
-pub(super) fn shortcuts(context: &egui::Context, commands: &mut Commands) {
-    if context.text_edit_focused() {
-        return;
-    }
-    context.input_mut(|input| {
-        // The one with more modifiers first: the other would take it, too.
-        if input.consume_key(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
-            || input.consume_key(Modifiers::COMMAND, Key::Y)
-        {
-            commands.push(Command::Redo);
-        } else if input.consume_key(Modifiers::COMMAND, Key::Z) {
-            commands.push(Command::Undo);
-        }
-    });
 }
 
 impl App {

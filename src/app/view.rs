@@ -34,6 +34,18 @@ pub enum Tab {
     Lessons,
 }
 
+impl Tab {
+    /// All of them in their order, with their names.
+    pub const NAMED: [(Self, &'static str); 6] = [
+        (Self::Explore, "Explore"),
+        (Self::Stability, "Stability"),
+        (Self::Sweep, "Sweep"),
+        (Self::Design, "Design"),
+        (Self::Paper, "Paper"),
+        (Self::Lessons, "Lessons"),
+    ];
+}
+
 /// Which part of the (omega, beta) plane the stability map shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -1,9 +1,14 @@
 //! The built page in a real Chromium. `make test` builds the page and runs these; plain `cargo test` skips them.
 
 mod agreement;
+mod axe;
 mod design;
 mod driver;
+mod failure;
+mod keyboard;
 mod lessons;
+mod mirror;
+mod offline;
 mod page;
 mod server;
 mod share;
@@ -52,10 +57,12 @@ fn starts_below_a_sub_path_and_then_asks_for_nothing() {
     let variety = colours(&page.png());
     assert!(variety > 50, "the canvas is nearly blank: {variety} colours");
 
-    let refused: Vec<_> = page.files.log().iter().filter(|served| served.status != 200).cloned().collect();
+    let refused: Vec<_> = page.files.log().iter().filter(|served| served.status >= 400).cloned().collect();
     assert!(refused.is_empty(), "asked for what is not there: {refused:?}");
     // The workers have loaded their scripts when they have answered.
     page.wait_until("the verdict", |state| !state["verdict"].is_null());
+    // And the browser has kept the page for use without a network.
+    page.wait_kept();
     let loaded = page.files.log().len();
     drag_slider(&mut page, "Frequency", 0.4, 0.6, 10);
     sleep(Duration::from_millis(500));
@@ -134,20 +141,6 @@ fn refuses_nonsense_with_a_message() {
         refusal(&page, "solve", nonsense);
     }
     assert_eq!(scenario(&page), before);
-    page.close();
-}
-
-#[test]
-#[ignore = "needs the built page and Chromium: make test"]
-fn a_crash_shows_what_happened_and_offers_the_state() {
-    let mut page = Page::open(1440, 900, Theme::Light);
-    drag_slider(&mut page, "Frequency", 0.3, 0.7, 10);
-    page.script("harvesterShell.fail('Harvester Lab stopped', 'a test asked for it')");
-    let text = page.script("return document.body.innerText");
-    let text = text.as_str().unwrap_or_default();
-    assert!(text.contains("Harvester Lab stopped") && text.contains("a test asked for it"), "{text}");
-    assert!(text.contains("Reload"), "{text}");
-    page.screenshot("failure");
     page.close();
 }
 

@@ -15,6 +15,13 @@ use serde_json::{Value, json};
 
 use crate::{driver::Browser, server::Files};
 
+/// Keys, as WebDriver numbers them.
+pub(crate) const TAB: char = '\u{e004}';
+pub(crate) const ENTER: char = '\u{e007}';
+pub(crate) const SHIFT: char = '\u{e008}';
+pub(crate) const CONTROL: char = '\u{e009}';
+pub(crate) const ESCAPE: char = '\u{e00c}';
+
 /// How long anything may take on a slow machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -32,6 +39,9 @@ pub(crate) struct Control {
     pub(crate) label: String,
     pub(crate) value: Option<String>,
     pub(crate) number: Option<f64>,
+    pub(crate) id: u64,
+    pub(crate) focusable: bool,
+    pub(crate) focused: bool,
     pub(crate) bounds: [f64; 4],
 }
 
@@ -48,6 +58,7 @@ pub(crate) struct Page {
     pub(crate) files: Files,
     browser: Browser,
     console: Vec<(String, String)>,
+    errors_expected: bool,
 }
 
 /// The project's folder.
@@ -63,7 +74,13 @@ pub(crate) fn dist() -> PathBuf {
 impl Page {
     /// Opens the page and waits until it is drawn.
     pub(crate) fn open(width: u32, height: u32, theme: Theme) -> Self {
-        let mut page = Self { files: Files::serve(&dist()), browser: Browser::start(), console: Vec::new() };
+        Self::open_from(&dist(), width, height, theme)
+    }
+
+    /// The same with the page of another folder.
+    pub(crate) fn open_from(root: &Path, width: u32, height: u32, theme: Theme) -> Self {
+        let (files, browser) = (Files::serve(root), Browser::start());
+        let mut page = Self { files, browser, console: Vec::new(), errors_expected: false };
         page.resize(width, height, theme);
         page.goto();
         page
@@ -77,16 +94,43 @@ impl Page {
     }
 
     /// A script that runs in the page before its own, from the next load on.
-    pub(crate) fn before_each_load(&self, script: &str) {
-        self.browser.devtools("Page.addScriptToEvaluateOnNewDocument", &json!({ "source": script }));
+    pub(crate) fn before_each_load(&self, script: &str) -> Value {
+        self.browser.devtools("Page.addScriptToEvaluateOnNewDocument", &json!({ "source": script }))
+    }
+
+    /// Ends what [`Self::before_each_load`] began.
+    pub(crate) fn before_no_load(&self, script: &Value) {
+        self.browser.devtools("Page.removeScriptToEvaluateOnNewDocument", script);
+    }
+
+    /// Calls Chromium's own protocol.
+    pub(crate) fn devtools(&self, command: &str) -> Value {
+        self.browser.devtools(command, &json!({}))
+    }
+
+    /// From now on errors on the console are part of the test.
+    pub(crate) fn expects_errors(&mut self) {
+        self.errors_expected = true;
     }
 
     pub(crate) fn reload(&mut self) {
-        self.browser.run(self.browser.client().refresh());
+        self.reload_unready();
         self.wait_ready();
     }
 
-    fn wait_ready(&mut self) {
+    /// The same for a page that need not start.
+    pub(crate) fn reload_unready(&self) {
+        self.browser.run(self.browser.client().refresh());
+    }
+
+    /// Waits until the browser has kept the page for use without a network.
+    pub(crate) fn wait_kept(&mut self) {
+        self.wait("the service worker", |page| {
+            (page.script("return navigator.serviceWorker.controller?.state") == "activated").then_some(())
+        });
+    }
+
+    pub(crate) fn wait_ready(&mut self) {
         self.wait("the page to start", |page| {
             let phase =
                 page.script("return document.documentElement.dataset.phase + '|' + document.body.innerText");
@@ -144,6 +188,16 @@ impl Page {
 
     pub(crate) fn controls(&self) -> Vec<Control> {
         serde_json::from_value(self.json("controls")).expect("a list of widgets")
+    }
+
+    /// The labels of all widgets of a role, once there are some.
+    pub(crate) fn labels(&mut self, role: &str) -> Vec<String> {
+        self.find("", &[role]);
+        self.controls()
+            .into_iter()
+            .filter(|control| control.role == role)
+            .map(|control| control.label)
+            .collect()
     }
 
     /// Polls until `look` finds something.
@@ -231,20 +285,19 @@ impl Page {
     }
 
     fn drain(&mut self) {
-        self.console.extend(self.browser.console());
+        // Software WebGL and canvas text have much to say that is about neither.
+        let noise = ["software WebGL", "GL Driver Message", "willReadFrequently"];
+        let telling = |entry: &(String, String)| !noise.iter().any(|words| entry.1.contains(words));
+        self.console.extend(self.browser.console().into_iter().filter(telling));
     }
 
     /// Ends the visit: nothing on the console may be an error.
     pub(crate) fn close(mut self) {
         self.drain();
         let errors: Vec<_> = self.console.iter().filter(|(level, _)| level == "SEVERE").collect();
-        assert!(errors.is_empty(), "errors on the console: {errors:#?}");
-        // Software WebGL and canvas text have much to say that is about neither.
-        let noise = ["software WebGL", "GL Driver Message", "willReadFrequently"];
+        assert!(self.errors_expected || errors.is_empty(), "errors on the console: {errors:#?}");
         for (level, message) in &self.console {
-            if !noise.iter().any(|words| message.contains(words)) {
-                println!("console {level}: {message}");
-            }
+            println!("console {level}: {message}");
         }
     }
 }

@@ -69,6 +69,18 @@ impl Files {
         format!("http://127.0.0.1:{}{PREFIX}", self.port)
     }
 
+    /// Replaces the page by that of another folder.
+    pub(crate) fn deploy(&self, root: &Path) {
+        let link = self.site.join(PREFIX.trim_matches('/'));
+        fs::remove_file(&link).expect("the link was there");
+        std::os::unix::fs::symlink(root.canonicalize().expect("a path"), link).expect("a link");
+    }
+
+    /// Cuts the network.
+    pub(crate) fn stop(&mut self) {
+        self.server.kill().and_then(|()| self.server.wait()).expect("the server ends");
+    }
+
     pub(crate) fn log(&self) -> MutexGuard<'_, Vec<Served>> {
         self.log.lock().expect("the log")
     }

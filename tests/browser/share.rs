@@ -4,11 +4,8 @@ use std::{env, fs};
 
 use serde_json::{Value, json};
 
-use super::page::{Page, Theme};
+use super::page::{CONTROL, Page, SHIFT, Theme};
 use super::{drag_slider, number};
-
-const CONTROL: char = '\u{e009}';
-const SHIFT: char = '\u{e008}';
 
 fn parameter(state: &Value, name: &str) -> f64 {
     state["view"]["scenario"]["parameters"][name].as_f64().expect("a number")

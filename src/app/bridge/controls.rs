@@ -2,12 +2,14 @@
 
 use std::collections::HashMap;
 
-use egui::accesskit::{Node, NodeId, Role, Toggled, TreeUpdate};
+use egui::accesskit::{Action, Node, NodeId, Role, Toggled, TreeUpdate};
 use serde::Serialize;
 
 /// One widget: enough to find it by its name and to aim a pointer at it.
 #[derive(Serialize)]
 pub(super) struct Control {
+    /// The same as long as it is there.
+    id: u64,
     role: String,
     label: String,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -17,6 +19,9 @@ pub(super) struct Control {
     #[serde(skip_serializing_if = "Option::is_none")]
     on: Option<bool>,
     enabled: bool,
+    /// Whether Tab leads there, and whether it is there.
+    focusable: bool,
+    focused: bool,
     /// Left, top, right, bottom in CSS pixels of the page.
     bounds: [f64; 4],
 }
@@ -24,7 +29,10 @@ pub(super) struct Control {
 /// Widgets that have a place on the screen; containers without a name are left out.
 pub(super) fn collect(update: &TreeUpdate, zoom: f32) -> Vec<Control> {
     let nodes: HashMap<NodeId, &Node> = update.nodes.iter().map(|(id, node)| (*id, node)).collect();
-    update.nodes.iter().filter_map(|(_, node)| control(node, &nodes, f64::from(zoom))).collect()
+    let controls = update.nodes.iter().filter_map(|(id, node)| {
+        Some(Control { id: id.0, focused: *id == update.focus, ..control(node, &nodes, f64::from(zoom))? })
+    });
+    controls.collect()
 }
 
 fn control(node: &Node, nodes: &HashMap<NodeId, &Node>, zoom: f64) -> Option<Control> {
@@ -36,12 +44,15 @@ fn control(node: &Node, nodes: &HashMap<NodeId, &Node>, zoom: f64) -> Option<Con
         return None;
     }
     Some(Control {
+        id: 0,
         role: format!("{:?}", node.role()),
         label,
         value: node.value().map(str::to_owned),
         number: node.numeric_value(),
         on: node.toggled().map(|state| state == Toggled::True),
         enabled: !node.is_disabled(),
+        focusable: node.supports_action(Action::Focus) && !node.is_disabled(),
+        focused: false,
         bounds: [bounds.x0, bounds.y0, bounds.x1, bounds.y1].map(|edge| edge * zoom),
     })
 }

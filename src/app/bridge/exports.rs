@@ -8,6 +8,7 @@ use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 use super::{RUNNING, Running};
+use crate::app::App;
 use crate::app::crew::Crew;
 
 thread_local! {
@@ -24,6 +25,16 @@ fn running<T>(with: impl FnOnce(&Running) -> Result<T, String>) -> Result<T, JsE
 
 const BUSY: &str = "the app is busy";
 
+/// Lets `with` change the running app, has it drawn again and remembered.
+fn changing(with: impl FnOnce(&mut App) -> Result<(), String>) -> Result<(), JsError> {
+    running(|running| {
+        with(&mut *running.app.try_borrow_mut().map_err(|_| BUSY)?)?;
+        running.keeper.try_borrow_mut().map_err(|_| BUSY)?.touch();
+        running.context.request_repaint();
+        Ok(())
+    })
+}
+
 /// Scenario and results as JSON.
 ///
 /// # Errors
@@ -39,10 +50,38 @@ pub fn state() -> Result<String, JsError> {
 /// One line that says what is wrong with it; the scenario shown stays.
 #[wasm_bindgen]
 pub fn load(json: &str) -> Result<(), JsError> {
-    running(|running| {
-        running.app.try_borrow_mut().map_err(|_| BUSY)?.load_json(json)?;
-        running.keeper.try_borrow_mut().map_err(|_| BUSY)?.touch();
-        running.context.request_repaint();
+    changing(|app| app.load_json(json))
+}
+
+/// Puts another value in an entry of the view; names and values are those of links.
+///
+/// # Errors
+/// One line that names the entry, the value and what is allowed; nothing changes then.
+#[wasm_bindgen]
+pub fn change(name: &str, value: &str) -> Result<(), JsError> {
+    changing(|app| app.change(name, value))
+}
+
+/// Takes the last step back.
+///
+/// # Errors
+/// When the app is not running.
+#[wasm_bindgen]
+pub fn undo() -> Result<(), JsError> {
+    changing(|app| {
+        app.undo();
+        Ok(())
+    })
+}
+
+/// Takes it again.
+///
+/// # Errors
+/// When the app is not running.
+#[wasm_bindgen]
+pub fn redo() -> Result<(), JsError> {
+    changing(|app| {
+        app.redo();
         Ok(())
     })
 }

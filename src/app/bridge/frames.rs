@@ -110,7 +110,7 @@ impl egui::Plugin for Probe {
             record.controls = controls::collect(&update, ctx.zoom_factor());
         }
         // A tree for every frame costs about as much as the frame: stop when nobody asks any more.
-        if record.asked.is_some_and(|asked| ended - asked > CURIOSITY) {
+        if record.asked.is_some_and(|asked| self.began - asked > CURIOSITY) {
             record.asked = None;
             record.controls.clear();
             ctx.disable_accesskit();

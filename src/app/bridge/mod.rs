@@ -9,6 +9,7 @@ mod controls;
 pub mod exports;
 mod files;
 mod frames;
+mod mirror;
 mod shell;
 mod storage;
 pub mod workers;
@@ -118,6 +119,7 @@ fn open_address() {
 struct Page {
     app: Rc<RefCell<App>>,
     keeper: Rc<RefCell<storage::Keeper>>,
+    mirror: mirror::Mirror,
     recorder: Recorder,
     shown: bool,
 }
@@ -141,7 +143,7 @@ impl Page {
         }));
         open_address();
         address::watch(open_address);
-        Self { app, keeper, recorder, shown: false }
+        Self { app, keeper, mirror: mirror::Mirror::default(), recorder, shown: false }
     }
 }
 
@@ -163,6 +165,7 @@ impl eframe::App for Page {
             self.shown = true;
             shell::ready();
         }
+        self.mirror.tick(&self.app.borrow(), ui.ctx());
     }
 
     fn save(&mut self, _storage: &mut dyn eframe::Storage) {

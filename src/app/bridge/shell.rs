@@ -13,6 +13,10 @@ extern "C" {
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn fail(title: &str, detail: &str);
 
+    /// Tells what the native controls mirror has changed to, as JSON.
+    #[wasm_bindgen(js_namespace = harvesterShell)]
+    pub(super) fn changed(mirror: &str);
+
     /// A new worker that has been told to run this (compiled) `module`, or null.
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn worker(module: &JsValue) -> JsValue;

@@ -8,6 +8,7 @@ use crate::app::view::design::Page;
 use crate::jobs::design::find::FindQuestion;
 use crate::jobs::design::{DesignFinding, DesignWork, Harvest, Operating};
 use crate::jobs::foreman::Lane;
+use crate::jobs::study::Study as _;
 use crate::jobs::study::find::FindStudy;
 use crate::jobs::study::harvest::HarvestStudy;
 use crate::jobs::study::load::LoadStudy;
@@ -94,7 +95,7 @@ impl BenchStudies {
         }
     }
 
-    /// Begins the search for a design, or ends it.
+    /// Begins the search for a design, or ends it: one under way keeps its best so far, a finished one is put away.
     ///
     /// # Errors
     /// One sentence about what of the question is out of range.
@@ -103,8 +104,15 @@ impl BenchStudies {
         question: Option<FindQuestion>,
         view: &View,
     ) -> Result<(), String> {
-        self.ended = question.is_none();
-        let Some(question) = question else { return Ok(()) };
+        let Some(question) = question else {
+            let under_way = self.find.study_mut().filter(|study| !study.finished());
+            self.ended = under_way.is_none_or(|study| {
+                study.stop();
+                study.best().is_none()
+            });
+            return Ok(());
+        };
+        self.ended = false;
         let study = FindStudy::new(question, view.design.search.generations, SEED);
         self.find.ask(study.map_err(|error| error.to_string())?);
         Ok(())

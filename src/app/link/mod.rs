@@ -4,6 +4,7 @@
 //! that is special about what it shows, and means the same in a later version that opens with something else. What is
 //! not usable is reported and left at its usual value; everything else is loaded.
 
+mod entry;
 mod field;
 mod number;
 
@@ -16,6 +17,7 @@ use serde_json::Value;
 
 use super::view::View;
 use crate::scenario::Scenario;
+pub use entry::{edit, entries};
 use field::{Field, fields};
 
 /// Version of the links written here; older ones are read.

@@ -16,12 +16,15 @@ const LEAST_HEIGHT_ALONE: f32 = 350.0;
 /// Width from which two cards stand side by side.
 const TWO_COLUMNS: f32 = 640.0;
 
+/// The plots.
+pub(in crate::app) const PANELS: [Panel; 4] =
+    [Panel::StabilityMap, Panel::PhasePortrait, Panel::PoincareMap, Panel::TimeHistory];
+
 /// Draws verdict and plots.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
     ui.add_space(GAP);
-    let panels = [Panel::StabilityMap, Panel::PhasePortrait, Panel::PoincareMap, Panel::TimeHistory];
-    cards(context, ui, &panels);
+    cards(context, ui, &PANELS);
 }
 
 /// These panels side by side, or the one of them that fills the page.

@@ -20,6 +20,7 @@ pub(super) mod phase_portrait;
 pub(super) mod poincare_map;
 pub(super) mod response;
 mod share;
+pub(super) mod shortcuts;
 pub(super) mod spectrum;
 pub(super) mod stability;
 pub(super) mod stability_map;

@@ -5,13 +5,13 @@ use egui::Ui;
 use super::{Context, explore, verdict};
 use crate::app::view::Panel;
 
+/// The plots.
+pub(in crate::app) const PANELS: [Panel; 6] =
+    [Panel::Chart, Panel::Multipliers, Panel::Curves, Panel::Basins, Panel::Spectrum, Panel::Evidence];
+
 /// Draws the tab.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
     ui.add_space(explore::GAP);
-    explore::cards(
-        context,
-        ui,
-        &[Panel::Chart, Panel::Multipliers, Panel::Curves, Panel::Basins, Panel::Spectrum, Panel::Evidence],
-    );
+    explore::cards(context, ui, &PANELS);
 }

@@ -35,13 +35,16 @@ const COUNTS: [(usize, &str); 3] = [(120, "120"), (240, "240"), (600, "600")];
 const WIDE: f32 = 700.0;
 const WIDEST: f32 = 980.0;
 
+/// The plots.
+pub(in crate::app) const PANELS: [Panel; 2] = [Panel::OrbitDiagram, Panel::Response];
+
 /// Draws the tab.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
     ui.add_space(explore::GAP);
     choices(context, ui);
     ui.add_space(explore::GAP);
-    explore::cards(context, ui, &[Panel::OrbitDiagram, Panel::Response]);
+    explore::cards(context, ui, &PANELS);
 }
 
 /// The symbol of a parameter, and its name as an axis title.

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::{Context, share};
+use super::{Context, share, shortcuts};
 use crate::app::command::Command;
 use crate::app::session::Status;
 use crate::app::view::Tab;
@@ -42,6 +42,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             ui.add_space(8.0);
             choose_tab(context, ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                shortcuts::button(ui);
                 switches(context, ui);
                 share::buttons(context, ui);
                 ui.add_space(6.0);
@@ -59,15 +60,7 @@ fn title(ui: &mut Ui) {
 
 fn choose_tab(context: &mut Context<'_>, ui: &mut Ui) {
     let mut tab = context.view.tab;
-    let all = [
-        (Tab::Explore, "Explore"),
-        (Tab::Stability, "Stability"),
-        (Tab::Sweep, "Sweep"),
-        (Tab::Design, "Design"),
-        (Tab::Paper, "Paper"),
-        (Tab::Lessons, "Lessons"),
-    ];
-    if tabs(ui, &mut tab, &all) {
+    if tabs(ui, &mut tab, &Tab::NAMED) {
         context.commands.push(Command::OpenTab(tab));
     }
 }

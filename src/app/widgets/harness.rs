@@ -16,6 +16,10 @@ pub(in crate::app) struct Harness {
 /// One widget as the accessibility tree shows it.
 #[derive(Debug, Clone)]
 pub(in crate::app) struct Node {
+    pub(in crate::app) id: egui::accesskit::NodeId,
+    /// Whether Tab can bring the focus there, and whether it is there.
+    pub(in crate::app) focusable: bool,
+    pub(in crate::app) focused: bool,
     pub(in crate::app) role: egui::Role,
     pub(in crate::app) label: String,
     pub(in crate::app) number: Option<f64>,
@@ -45,7 +49,11 @@ impl Harness {
             egui::CentralPanel::default().show(ui, |ui| draw(ui));
         });
         if let Some(update) = output.platform_output.accesskit_update.take() {
-            self.nodes = update.nodes.iter().map(|(_, node)| Node::read(node)).collect();
+            self.nodes = update
+                .nodes
+                .iter()
+                .map(|(id, node)| Node { focused: *id == update.focus, ..Node::read(*id, node) })
+                .collect();
         }
         output.drop_without_applying_deltas();
     }
@@ -61,6 +69,11 @@ impl Harness {
     pub(in crate::app) fn find(&self, role: egui::Role, label: &str) -> Node {
         let found = self.nodes.iter().find(|node| node.role == role && node.label.starts_with(label));
         found.unwrap_or_else(|| panic!("no {role:?} {label:?} in {:#?}", self.nodes)).clone()
+    }
+
+    /// What has the focus.
+    pub(in crate::app) fn focused(&self) -> Option<&Node> {
+        self.nodes.iter().find(|node| node.focused)
     }
 
     /// Presses and releases the primary button at `position`.
@@ -96,12 +109,13 @@ impl Harness {
 }
 
 impl Node {
-    fn read(node: &egui::accesskit::Node) -> Self {
+    fn read(id: egui::accesskit::NodeId, node: &egui::accesskit::Node) -> Self {
         let bounds = node.bounds().map_or(Rect::NOTHING, |b| {
             Rect::from_min_max(Pos2::new(b.x0 as f32, b.y0 as f32), Pos2::new(b.x1 as f32, b.y1 as f32))
         });
         let label = node.label().or(node.value()).unwrap_or_default().to_owned();
-        Self { role: node.role(), label, number: node.numeric_value(), bounds }
+        let focusable = node.supports_action(egui::accesskit::Action::Focus) && !node.is_disabled();
+        Self { id, focusable, focused: false, role: node.role(), label, number: node.numeric_value(), bounds }
     }
 }
 

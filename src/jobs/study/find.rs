@@ -37,6 +37,7 @@ pub struct FindStudy {
     /// Every candidate with its evaluation, for a picture of the search.
     visited: Vec<Candidate>,
     failure: Option<String>,
+    stopped: bool,
 }
 
 impl FindStudy {
@@ -65,7 +66,13 @@ impl FindStudy {
             history: Vec::new(),
             visited: Vec::new(),
             failure: None,
+            stopped: false,
         })
+    }
+
+    /// Ends the search with what it has found so far.
+    pub fn stop(&mut self) {
+        self.stopped = true;
     }
 
     /// What is searched.
@@ -160,7 +167,7 @@ impl Study for FindStudy {
 
     fn take(&mut self, ticket: usize, finding: Result<Finding, String>) {
         let size = self.evaluations.len();
-        if ticket / size != self.generation {
+        if self.finished() || ticket / size != self.generation {
             return;
         }
         match finding {
@@ -183,6 +190,6 @@ impl Study for FindStudy {
     }
 
     fn finished(&self) -> bool {
-        self.failure.is_some() || self.generation >= self.generations
+        self.stopped || self.failure.is_some() || self.generation >= self.generations
     }
 }

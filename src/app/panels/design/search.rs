@@ -285,7 +285,12 @@ fn search(context: &mut Context<'_>, ui: &mut Ui) {
         return;
     };
     if !study.finished() {
-        ui.add(egui::ProgressBar::new(study.progress() as f32).desired_height(8.0));
+        ui.horizontal(|ui| {
+            if ui.button("Stop").clicked() {
+                context.commands.push(Command::Find(false));
+            }
+            ui.add(egui::ProgressBar::new(study.progress() as f32).desired_height(8.0));
+        });
     }
     if let Some(why) = study.failure() {
         ui.add(egui::Label::new(small(why.to_owned()).color(tokens.danger)).wrap());

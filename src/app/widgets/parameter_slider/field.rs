@@ -99,6 +99,8 @@ pub(super) fn show(
         WidgetInfo::text_edit(enabled, text.clone(), text.clone(), format!("{} value", subject.name))
     });
 
+    ui.ctx().accesskit_node_builder(id, |node| node.set_label(format!("{} value", subject.name)));
+
     if response.gained_focus() {
         let full = number::exact(value);
         let all = CCursorRange::select_all_str(&full);

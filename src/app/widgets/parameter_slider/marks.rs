@@ -124,8 +124,9 @@ pub(super) fn height(painter: &Painter, mapping: &Mapping, marks: &[Mark], track
         return 0.0;
     }
     let places = arrange(painter, mapping, marks, track, outer, egui::Color32::PLACEHOLDER);
-    let lowest =
-        places.iter().filter_map(|place| place.label).map(|label| label.bottom()).fold(0.0, f32::max);
+    // Not from zero: a track that is scrolled out of the page lies above it.
+    let bottoms = places.iter().filter_map(|place| place.label).map(|label| label.bottom());
+    let lowest = bottoms.fold(track.bottom(), f32::max);
     (lowest - track.bottom()).max(TICK)
 }
 

@@ -44,6 +44,8 @@ pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> P
     let (x_spacer, y_spacer) = (x.clone(), y.clone());
     let (x_readout, y_readout) = (x.clone(), y.clone());
     Plot::new(id)
+        // Not for the keyboard: what is in it to be pointed at has a control of its own.
+        .sense(egui::Sense::CLICK | egui::Sense::DRAG)
         .custom_x_axes(vec![hints(AxisHints::new_x(), x, 26.0)])
         .custom_y_axes(vec![hints(AxisHints::new_y(), y, 13.0).min_thickness(24.0)])
         .x_grid_spacer(move |input| x_spacer.marks(&input, 54.0))

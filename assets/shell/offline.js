@@ -1,0 +1,20 @@
+// Lets the browser keep the page for use without a network, and says when a newer version of it is ready.
+
+const element = (id) => document.getElementById(id);
+const workers = navigator.serviceWorker;
+
+// Kept for later only where the address allows it (https, or this very computer); without, the page works as before.
+async function keep() {
+  const renewed = Boolean(workers.controller);
+  workers.addEventListener("controllerchange", () => {
+    if (renewed) element("newer").hidden = false;
+  });
+  await workers.register("service.js");
+}
+
+element("renew").addEventListener("click", () => location.reload());
+element("later").addEventListener("click", () => (element("newer").hidden = true));
+if (workers) {
+  // After the page itself: keeping it for later must not delay it now.
+  addEventListener("load", () => keep().catch(() => {}));
+}

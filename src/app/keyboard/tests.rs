@@ -1,0 +1,133 @@
+//! The whole app by keyboard, without a window.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use egui::{Event, Key, Modifiers};
+
+use crate::app::App;
+use crate::app::crew::{Crew, Inline};
+use crate::app::view::{Panel, Tab};
+use crate::app::widgets::harness::Harness;
+
+struct Desk {
+    app: App,
+    harness: Harness,
+}
+
+impl Desk {
+    fn new(width: f32, stored: &str) -> Self {
+        let harness = Harness::new(width, 900.0);
+        let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
+        let mut desk = Self { app: App::new(&harness.context, Some(stored), crew), harness };
+        for _ in 0..20 {
+            desk.app.logic(&desk.harness.context.clone());
+            desk.rest(1);
+        }
+        desk
+    }
+
+    /// A picture; nothing is computed for it.
+    fn frame(&mut self, events: Vec<Event>) {
+        self.harness.frame(events, |ui| self.app.ui(ui));
+    }
+
+    fn rest(&mut self, frames: usize) {
+        (0..frames).for_each(|_| self.frame(Vec::new()));
+    }
+
+    fn press(&mut self, key: Key, modifiers: Modifiers) {
+        for pressed in [true, false] {
+            self.frame(vec![Event::Key { key, physical_key: None, pressed, repeat: false, modifiers }]);
+        }
+        self.rest(1);
+    }
+}
+
+#[test]
+fn tab_reaches_every_control_of_every_page_and_brings_it_into_view() {
+    let pages = ["harvest", "load", "materials", "trust", "search", "measured"];
+    let tabs = ["explore", "stability", "sweep", "paper"].map(|tab| (tab, "harvest"));
+    for (tab, page) in tabs.into_iter().chain(pages.map(|page| ("design", page))) {
+        for width in [360.0, 1440.0] {
+            let stored = format!(
+                r#"{{"scenario":{{"t_end":100}},"tab":"{tab}","beam_moves":false,"design":{{"page":"{page}"}}}}"#
+            );
+            let mut desk = Desk::new(width, &stored);
+            let (mut reached, mut first) = (BTreeSet::new(), None);
+            for step in 0.. {
+                assert!(step < 400, "{tab} {page} at {width}: the focus does not come round");
+                desk.press(Key::Tab, Modifiers::NONE);
+                let focused = desk.harness.focused().expect("something has the focus");
+                assert!(!focused.label.is_empty(), "{tab} {page} at {width}: nameless {focused:?}");
+                let page = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width, 900.0));
+                if !page.intersects(focused.bounds) {
+                    desk.rest(40);
+                }
+                let focused = desk.harness.focused().expect("it keeps the focus");
+                assert!(page.intersects(focused.bounds), "{tab} at {width}: out of sight: {focused:?}");
+                let id = focused.id;
+                if *first.get_or_insert(id) == id && !reached.is_empty() {
+                    break;
+                }
+                reached.insert(id);
+            }
+            let missed: Vec<_> = desk
+                .harness
+                .nodes
+                .iter()
+                .filter(|node| node.focusable && !reached.contains(&node.id))
+                .collect();
+            assert!(missed.is_empty(), "{tab} {page} at {width}: {missed:#?}");
+            assert!(reached.len() > 20, "{tab} {page} at {width}: {} controls", reached.len());
+        }
+    }
+}
+
+#[test]
+fn keys_do_what_the_list_says() {
+    let mut desk = Desk::new(1440.0, r#"{"scenario":{"t_end":100}}"#);
+    let plain = Modifiers::NONE;
+    desk.press(Key::Num3, plain);
+    assert_eq!(desk.app.view.tab, Tab::Sweep);
+    desk.press(Key::Num1, plain);
+    for plot in [Some(Panel::StabilityMap), Some(Panel::PhasePortrait)] {
+        desk.press(Key::F, plain);
+        assert_eq!(desk.app.view.enlarged, plot);
+    }
+    desk.press(Key::Escape, plain);
+    assert_eq!(desk.app.view.enlarged, None);
+    let dark = desk.app.view.dark;
+    desk.press(Key::D, plain);
+    desk.press(Key::L, plain);
+    desk.press(Key::P, plain);
+    assert!(desk.app.view.dark != dark && desk.app.view.projector && desk.app.session.pinned.is_some());
+    desk.press(Key::L, plain);
+    desk.press(Key::Questionmark, Modifiers::SHIFT);
+    desk.rest(3);
+    desk.harness.find(egui::Role::Button, "Close");
+    // What lies over the page keeps the keys to itself.
+    desk.press(Key::Num2, plain);
+    assert_eq!(desk.app.view.tab, Tab::Explore);
+    desk.press(Key::Escape, plain);
+    desk.press(Key::Num2, plain);
+    assert_eq!(desk.app.view.tab, Tab::Stability);
+    desk.press(Key::Z, Modifiers::COMMAND);
+    assert_eq!(desk.app.view.tab, Tab::Explore);
+}
+
+#[test]
+fn no_key_is_a_shortcut_while_a_number_is_typed() {
+    let mut desk = Desk::new(1440.0, r#"{"scenario":{"t_end":100}}"#);
+    let field = desk.harness.find(egui::Role::TextInput, "Damping value").bounds.center();
+    let Desk { app, harness } = &mut desk;
+    harness.click(field, |ui| app.ui(ui));
+    desk.rest(2);
+    let before = desk.app.view.clone();
+    for key in [Key::Num2, Key::D, Key::F, Key::P, Key::Questionmark] {
+        desk.press(key, Modifiers::NONE);
+    }
+    assert_eq!(desk.app.view, before);
+    assert!(!super::shortcuts::is_open(&desk.harness.context));
+}

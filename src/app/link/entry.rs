@@ -1,0 +1,77 @@
+//! Single entries of a view, by the names and in the spelling that links have.
+
+use super::Problem;
+use super::field::fields;
+use crate::app::view::View;
+
+/// The entries of these names as text; names that links do not have are left out.
+pub fn entries(view: &View, names: &[&'static str]) -> Vec<(&'static str, String)> {
+    let (value, fields) = (view.to_value(), fields());
+    let text = |name: &&'static str| {
+        let field = fields.iter().find(|field| field.name == **name)?;
+        Some((*name, field.write(field.of(&value))))
+    };
+    names.iter().filter_map(text).collect()
+}
+
+/// `view` with another value in the entry `name`.
+///
+/// # Errors
+/// What is wrong with it, and what is allowed.
+pub fn edit(view: &View, name: &str, text: &str) -> Result<View, Problem> {
+    let problem = |reason: String| Problem::new(name, text, reason);
+    let fields = fields();
+    let field = fields.iter().find(|field| field.name == name);
+    let field = field.ok_or_else(|| problem("not a name this page knows".to_owned()))?;
+    let (new, mut value) = (field.read(text).map_err(problem)?, view.to_value());
+    field.try_out(value.clone(), &new).map_err(problem)?;
+    field.set(&mut value, &new);
+    let mut edited = View::from_value(value).map_err(problem)?;
+    let modes = edited.scenario.model.modes;
+    if modes != view.scenario.model.modes {
+        // A start state has as many numbers as the modes need.
+        edited.scenario = view.scenario.clone();
+        edited.scenario.set_modes(modes);
+    }
+    if edited.tab != view.tab {
+        edited.enlarged = None;
+    }
+    edited.check().map_err(|(_, reason)| problem(reason))?;
+    Ok(edited)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::view::{Panel, Tab};
+    use crate::model::ForceLaw;
+
+    #[test]
+    fn an_entry_is_written_as_it_is_read() {
+        let mut view = View { enlarged: Some(Panel::TimeHistory), ..View::default() };
+        view.scenario.initial = Some(vec![0.1, 0.2, 0.3, 0.4, 0.5]);
+        let edits =
+            [("alpha", "0.002"), ("omega", "8.25"), ("force", "taylor5"), ("modes", "3"), ("tab", "sweep")];
+        for (name, text) in edits {
+            view = edit(&view, name, text).expect("a value in range");
+        }
+        assert_eq!(view.scenario.parameters.omega, 8.25);
+        assert_eq!(view.scenario.model.force, ForceLaw::Taylor(5));
+        assert_eq!(view.scenario.initial, Some(vec![0.1, 0.2, 0.0, 0.3, 0.4, 0.0, 0.5]));
+        assert_eq!((view.tab, view.enlarged), (Tab::Sweep, None));
+        let names = edits.map(|(name, _)| name);
+        let written = entries(&view, &names);
+        assert_eq!(written, edits.map(|(name, text)| (name, text.to_owned())));
+    }
+
+    #[test]
+    fn a_bad_value_is_refused_with_what_is_allowed() {
+        let view = View::default();
+        let refusal = |name, text| edit(&view, name, text).expect_err("refused").to_string();
+        assert_eq!(refusal("beta", "7"), "beta = 7 (allowed are 0 to 0.2)");
+        assert_eq!(refusal("modes", "9"), "modes = 9 (allowed are whole numbers from 1 to 8)");
+        assert!(refusal("omega", "").starts_with("omega =  ("), "{}", refusal("omega", ""));
+        assert!(refusal("tab", "dance").contains("allowed are explore, "));
+        assert_eq!(refusal("colour", "red"), "colour = red (not a name this page knows)");
+    }
+}
