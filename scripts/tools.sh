@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks the tools for a target and installs what is missing: tools.sh dev|page|test
-# Cargo's tools go to .tools, npm's to node_modules; only rustup's target and Debian's Chromium are shared.
+# Cargo's tools go to .tools, npm's to node_modules; only rustup's target and Debian's browsers are shared.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/versions.env
@@ -64,24 +64,37 @@ axe() {
   npm ci --no-audit --no-fund --loglevel=error
 }
 
-chromium_() {
-  have "${CHROMEDRIVER:-chromedriver}" && { have "${CHROMIUM:-chromium}" || have chromium-browser || have google-chrome; } && return
-  local advice="the browser tests need Chromium and chromedriver: apt-get install chromium chromium-driver, \
-or set CHROMIUM and CHROMEDRIVER to where they are"
+# Debian's packages, for the browser tests: debian ADVICE PACKAGE...
+debian() {
+  local advice="$1"
+  shift
   have apt-get || die "$advice"
   local root=()
   [ "$(id -u)" = 0 ] || root=(sudo -n)
-  say "installing Debian's chromium and chromium-driver (a minute or two)"
+  say "installing Debian's $* (a minute or two)"
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq </dev/null || die "$advice"
-  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends chromium chromium-driver \
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "$@" \
     </dev/null >/dev/null || die "$advice"
+}
+
+chromium_() {
+  have "${CHROMEDRIVER:-chromedriver}" && { have "${CHROMIUM:-chromium}" || have chromium-browser || have google-chrome; } && return
+  debian "the browser tests need Chromium and chromedriver: apt-get install chromium chromium-driver, \
+or set CHROMIUM and CHROMEDRIVER to where they are" chromium chromium-driver
+}
+
+# Xvfb is the screen that Firefox needs for WebGL, Mesa draws.
+firefox_() {
+  { have "${FIREFOX:-firefox-esr}" || have firefox; } && have "${XVFB:-Xvfb}" && return
+  debian "the browser tests need Firefox and Xvfb: apt-get install firefox-esr xvfb libgl1-mesa-dri libegl1, \
+or set FIREFOX and XVFB to where they are" firefox-esr xvfb libgl1-mesa-dri libegl1
 }
 
 rust
 case "${1:-page}" in
   dev) trunk_; bindgen ;;
   page) trunk_; bindgen; wasm_opt ;;
-  test) trunk_; bindgen; wasm_opt; axe; chromium_ ;;
-  browser) axe; chromium_ ;;
+  test) trunk_; bindgen; wasm_opt; axe; chromium_; firefox_ ;;
+  browser) axe; chromium_; firefox_ ;;
   *) die "tools.sh dev|page|test|browser" ;;
 esac

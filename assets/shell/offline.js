@@ -9,7 +9,9 @@ async function keep() {
   workers.addEventListener("controllerchange", () => {
     if (renewed) element("newer").hidden = false;
   });
-  await workers.register("service.js");
+  const registration = await workers.register("service.js");
+  // Left alone, the browser would look for a newer version half a minute later.
+  if (renewed) await registration.update();
 }
 
 element("renew").addEventListener("click", () => location.reload());

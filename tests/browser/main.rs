@@ -1,10 +1,11 @@
-//! The built page in a real Chromium. `make test` builds the page and runs these; plain `cargo test` skips them.
+//! The built page in a real Chromium and a real Firefox. `make test` builds the page and runs these; plain `cargo test` skips them.
 
 mod agreement;
 mod axe;
 mod design;
 mod driver;
 mod failure;
+mod firefox;
 mod keyboard;
 mod lessons;
 mod mirror;

@@ -7,13 +7,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-use fantoccini::actions::{
-    InputSource as _, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MouseActions, PointerAction,
-};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::{driver::Browser, server::Files};
+use crate::{
+    driver::{Browser, Chromium, Firefox},
+    server::Files,
+};
 
 /// Keys, as WebDriver numbers them.
 pub(crate) const TAB: char = '\u{e004}';
@@ -56,7 +56,7 @@ impl Control {
 /// The page in a browser of its own, served by a server of its own.
 pub(crate) struct Page {
     pub(crate) files: Files,
-    browser: Browser,
+    browser: Box<dyn Browser>,
     console: Vec<(String, String)>,
     errors_expected: bool,
 }
@@ -74,12 +74,16 @@ pub(crate) fn dist() -> PathBuf {
 impl Page {
     /// Opens the page and waits until it is drawn.
     pub(crate) fn open(width: u32, height: u32, theme: Theme) -> Self {
-        Self::open_from(&dist(), width, height, theme)
+        Self::open_in(Box::new(Chromium::start()), &dist(), width, height, theme)
     }
 
-    /// The same with the page of another folder.
-    pub(crate) fn open_from(root: &Path, width: u32, height: u32, theme: Theme) -> Self {
-        let (files, browser) = (Files::serve(root), Browser::start());
+    /// Opens the page of a folder in Firefox, where sizes are those of the window.
+    pub(crate) fn open_in_firefox(root: &Path, width: u32, height: u32, theme: Theme) -> Self {
+        Self::open_in(Box::new(Firefox::start(theme)), root, width, height, theme)
+    }
+
+    fn open_in(browser: Box<dyn Browser>, root: &Path, width: u32, height: u32, theme: Theme) -> Self {
+        let files = Files::serve(root);
         let mut page = Self { files, browser, console: Vec::new(), errors_expected: false };
         page.resize(width, height, theme);
         page.goto();
@@ -89,7 +93,7 @@ impl Page {
     /// Loads the page (again) by its address.
     pub(crate) fn goto(&mut self) {
         let url = self.files.url();
-        self.browser.run(self.browser.client().goto(&url));
+        self.browser.goto(&url);
         self.wait_ready();
     }
 
@@ -120,7 +124,7 @@ impl Page {
 
     /// The same for a page that need not start.
     pub(crate) fn reload_unready(&self) {
-        self.browser.run(self.browser.client().refresh());
+        self.browser.refresh();
     }
 
     /// Waits until the browser has kept the page for use without a network.
@@ -141,11 +145,7 @@ impl Page {
     }
 
     pub(crate) fn resize(&self, width: u32, height: u32, theme: Theme) {
-        let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
-        self.browser.devtools("Emulation.setDeviceMetricsOverride", &metrics);
-        let value = if theme == Theme::Dark { "dark" } else { "light" };
-        let media = json!({ "features": [{ "name": "prefers-color-scheme", "value": value }] });
-        self.browser.devtools("Emulation.setEmulatedMedia", &media);
+        self.browser.resize(width, height, theme);
     }
 
     /// Runs JavaScript; a promise is waited for.
@@ -155,7 +155,7 @@ impl Page {
 
     /// The same with arguments.
     pub(crate) fn script_with(&self, script: &str, arguments: Vec<Value>) -> Value {
-        self.browser.run(self.browser.client().execute(script, arguments))
+        self.browser.execute(script, arguments)
     }
 
     /// Calls a function of `window.harvester`: what it answers, or the message of its refusal.
@@ -165,7 +165,7 @@ impl Page {
              catch (error) {{ return [false, String(error?.message ?? error)]; }}"
         );
         let script = format!("return (async function() {{ {script} }})(...arguments)");
-        let answer = self.browser.run(self.browser.client().execute(&script, vec![json!(argument)]));
+        let answer = self.browser.execute(&script, vec![json!(argument)]);
         if answer[0] == true {
             Ok(answer[1].clone())
         } else {
@@ -241,27 +241,26 @@ impl Page {
 
     /// Presses at the first point, moves through the others and lets go at the last.
     pub(crate) fn drag(&self, path: &[(f64, f64)], step: Duration) {
-        let mut mouse = MouseActions::new("mouse".to_owned());
+        let mut moves = Vec::new();
         for (index, &(x, y)) in path.iter().enumerate() {
-            mouse = mouse.then(PointerAction::MoveTo { duration: Some(step), x, y });
+            moves.push(json!({ "type": "pointerMove", "duration": step.as_millis(), "x": x, "y": y }));
             if index == 0 {
-                mouse = mouse.then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
+                moves.push(json!({ "type": "pointerDown", "button": 0 }));
             }
         }
-        let mouse = mouse.then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
-        self.browser.run(self.browser.client().perform_actions(mouse));
+        moves.push(json!({ "type": "pointerUp", "button": 0 }));
+        let mouse = json!({ "type": "pointer", "id": "mouse", "actions": moves });
+        self.browser.perform(&json!({ "actions": [mouse] }));
     }
 
     /// Presses a key while others are held down.
     pub(crate) fn keys(&self, held: &[char], key: char) {
-        let mut keyboard = KeyActions::new("keyboard".to_owned());
-        for &value in held.iter().chain([&key]) {
-            keyboard = keyboard.then(KeyAction::Down { value });
-        }
-        for &value in [&key].into_iter().chain(held.iter().rev()) {
-            keyboard = keyboard.then(KeyAction::Up { value });
-        }
-        self.browser.run(self.browser.client().perform_actions(keyboard));
+        let down = held.iter().chain([&key]).map(|key| json!({ "type": "keyDown", "value": key }));
+        let up =
+            [&key].into_iter().chain(held.iter().rev()).map(|key| json!({ "type": "keyUp", "value": key }));
+        let keyboard =
+            json!({ "type": "key", "id": "keyboard", "actions": down.chain(up).collect::<Vec<_>>() });
+        self.browser.perform(&json!({ "actions": [keyboard] }));
     }
 
     /// Lets the page save files in a folder.
@@ -271,7 +270,7 @@ impl Page {
     }
 
     pub(crate) fn png(&self) -> Vec<u8> {
-        self.browser.run(self.browser.client().screenshot())
+        self.browser.screenshot()
     }
 
     /// Writes `target/screenshots/<name>.png`.

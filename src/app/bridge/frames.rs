@@ -10,8 +10,9 @@ use super::controls::{self, Control};
 /// Frames remembered.
 const KEPT: usize = 2000;
 
-/// Milliseconds after the last question about widgets until their description is no longer made.
+/// Milliseconds and frames after the last question about widgets until their description is no longer made.
 const CURIOSITY: f64 = 1500.0;
+const CURIOUS_FRAMES: u64 = 20;
 
 /// Milliseconds since the page was opened.
 fn now() -> f64 {
@@ -24,7 +25,8 @@ struct Record {
     cpu_ms: VecDeque<f64>,
     total_ms: VecDeque<f64>,
     last_total: Option<f32>,
-    asked: Option<f64>,
+    /// When the widgets were asked for last, and in which frame.
+    asked: Option<(f64, u64)>,
     controls: Vec<Control>,
 }
 
@@ -62,7 +64,8 @@ impl Recorder {
     /// The widgets of the last frame as JSON; the first call only starts their collection.
     pub(super) fn controls(&self, context: &egui::Context) -> String {
         let mut record = self.0.lock();
-        let idle = record.asked.replace(now()).is_none();
+        let asked = (now(), record.count);
+        let idle = record.asked.replace(asked).is_none();
         let list = serde_json::to_string(&record.controls).unwrap_or_default();
         drop(record);
         if idle {
@@ -110,7 +113,8 @@ impl egui::Plugin for Probe {
             record.controls = controls::collect(&update, ctx.zoom_factor());
         }
         // A tree for every frame costs about as much as the frame: stop when nobody asks any more.
-        if record.asked.is_some_and(|asked| self.began - asked > CURIOSITY) {
+        let bored = |(asked, count)| ended - asked > CURIOSITY && record.count - count > CURIOUS_FRAMES;
+        if record.asked.is_some_and(bored) {
             record.asked = None;
             record.controls.clear();
             ctx.disable_accesskit();

@@ -1,4 +1,4 @@
-//! One headless Chromium under chromedriver, closed again however the test ends.
+//! One headless Chromium under chromedriver.
 
 use std::{
     env, fs,
@@ -13,15 +13,18 @@ use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
 use tokio::runtime::Runtime;
 
-/// A browser session. Its methods block: the tests have nothing else to do.
-pub(crate) struct Browser {
+use super::{Browser, program};
+use crate::page::Theme;
+
+/// A browser session.
+pub(crate) struct Chromium {
     runtime: Runtime,
     client: Option<Client>,
     driver: Child,
     profile: PathBuf,
 }
 
-impl Browser {
+impl Chromium {
     pub(crate) fn start() -> Self {
         static STARTED: AtomicUsize = AtomicUsize::new(0);
         let number = STARTED.fetch_add(1, Ordering::Relaxed);
@@ -66,23 +69,50 @@ impl Browser {
         browser
     }
 
-    /// The WebDriver client, for futures to `run`.
-    pub(crate) fn client(&self) -> &Client {
+    fn client(&self) -> &Client {
         self.client.as_ref().expect("an open session")
     }
 
     /// Waits for an answer of the client.
-    pub(crate) fn run<T, E: std::fmt::Debug>(&self, answer: impl Future<Output = Result<T, E>>) -> T {
+    fn run<T, E: std::fmt::Debug>(&self, answer: impl Future<Output = Result<T, E>>) -> T {
         self.runtime.block_on(answer).expect("the browser answers")
     }
 
-    /// Calls Chromium's own protocol.
-    pub(crate) fn devtools(&self, command: &str, parameters: &Value) -> Value {
-        self.post("goog/cdp/execute", json!({ "cmd": command, "params": parameters }))
+    fn post(&self, path: &'static str, body: Value) -> Value {
+        self.run(self.client().issue_cmd(Post { path, body }))
+    }
+}
+
+impl Browser for Chromium {
+    fn goto(&self, url: &str) {
+        self.run(self.client().goto(url));
     }
 
-    /// Console messages since the last call: (level, message).
-    pub(crate) fn console(&self) -> Vec<(String, String)> {
+    fn refresh(&self) {
+        self.run(self.client().refresh());
+    }
+
+    fn execute(&self, script: &str, arguments: Vec<Value>) -> Value {
+        self.run(self.client().execute(script, arguments))
+    }
+
+    fn perform(&self, actions: &Value) {
+        self.post("actions", actions.clone());
+    }
+
+    fn screenshot(&self) -> Vec<u8> {
+        self.run(self.client().screenshot())
+    }
+
+    fn resize(&self, width: u32, height: u32, theme: Theme) {
+        let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.devtools("Emulation.setDeviceMetricsOverride", &metrics);
+        let value = if theme == Theme::Dark { "dark" } else { "light" };
+        let media = json!({ "features": [{ "name": "prefers-color-scheme", "value": value }] });
+        self.devtools("Emulation.setEmulatedMedia", &media);
+    }
+
+    fn console(&self) -> Vec<(String, String)> {
         let entries = self.post("se/log", json!({ "type": "browser" }));
         let text = |entry: &Value, key: &str| entry[key].as_str().unwrap_or_default().to_owned();
         entries
@@ -93,12 +123,12 @@ impl Browser {
             .collect()
     }
 
-    fn post(&self, path: &'static str, body: Value) -> Value {
-        self.run(self.client().issue_cmd(Post { path, body }))
+    fn devtools(&self, command: &str, parameters: &Value) -> Value {
+        self.post("goog/cdp/execute", json!({ "cmd": command, "params": parameters }))
     }
 }
 
-impl Drop for Browser {
+impl Drop for Chromium {
     fn drop(&mut self) {
         // Ending the session ends Chromium; killing only the driver would leave it behind.
         if let Some(client) = self.client.take() {
@@ -137,17 +167,4 @@ fn announced_port(driver: &mut Child) -> u16 {
     // Keep reading, or the driver blocks once the pipe is full.
     std::thread::spawn(move || lines.for_each(drop));
     port.expect("chromedriver says its port")
-}
-
-/// The program named by an environment variable, or the first of `names` on the search path.
-fn program(variable: &str, names: &[&str]) -> PathBuf {
-    if let Some(given) = env::var_os(variable) {
-        return given.into();
-    }
-    let path = env::var_os("PATH").unwrap_or_default();
-    let folders: Vec<PathBuf> = env::split_paths(&path).collect();
-    let candidates = names.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
-    candidates.into_iter().find(|candidate| candidate.is_file()).unwrap_or_else(|| {
-        panic!("none of {names:?} is installed: `scripts/browser.sh` installs or explains")
-    })
 }
