@@ -8,7 +8,7 @@ use crate::app::theme::{self, Tokens};
 use crate::app::view::Panel;
 use crate::app::widgets::number::{round_significant, significant};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{attractor_row, draw_raster, raster};
+use crate::app::widgets::{attractor_row, draw_raster, raster, recorder};
 use crate::dynamics::motion::Motion;
 use crate::jobs::study::Study as _;
 use crate::jobs::study::basin::{Attractor, Basin};
@@ -98,6 +98,12 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
             if let Some(picture) = &picture {
                 let opacity = if basin.chart().version() == 0 { 0.4 } else { 1.0 };
                 draw_raster(plot, picture, x, y, opacity);
+                let value = |column, row| {
+                    basin.chart().cell(column, row)?;
+                    let attractor = attractors.get(basin.shown(column, row)??)?;
+                    Some(format!("{}: {}", attractor.number + 1, attractor.cell.motion))
+                };
+                recorder::cells(plot, "motion reached", question.size, [x, y], &value);
             }
             let places: Vec<(String, PlotPoint)> = attractors
                 .iter()
