@@ -28,6 +28,8 @@ use crate::model::{Demand, Dimension};
 const PICTURE_SCALE: u8 = 2;
 /// Size of the page on which the plots of a report are drawn, points.
 const REPORT_PAGE: [f32; 2] = [1100.0, 980.0];
+/// Height over width of a plot in a report.
+const REPORT_ASPECT: f64 = 0.5;
 /// Frames until the plots of a page that was not drawn before have found their bounds.
 const SETTLING: usize = 3;
 /// What is said when there is nothing to save.
@@ -81,14 +83,21 @@ impl App {
         let reading = Reading::new(shown, self.session.boundaries.as_ref(), verdict);
         let explore = View { tab: Tab::Explore, enlarged: None, ..self.view.clone() };
         let plots = self.figures(&explore, None);
-        let mut plots: Vec<Vec<Figure>> =
-            plots.chunk_by(|a, b| a.title == b.title).map(<[Figure]>::to_vec).collect();
+        let mut plots: Vec<Vec<Figure>> = plots.into_iter().map(|figure| vec![figure]).collect();
+        for index in 1..plots.len() {
+            if plots[index][0].title == plots[index - 1][0].title {
+                plots[index][0].title += ": the end of the run";
+            }
+        }
+        plots.iter_mut().flatten().for_each(|figure| figure.aspect = REPORT_ASPECT);
         let harvest = crew.studies.bench.harvest.study();
         let question = bench::questions::harvest(&self.view, &self.session);
         if harvest.is_some_and(|study| study.finished() && *study.question() == question) {
             let mut view = View { tab: Tab::Design, enlarged: Some(Panel::Harvest), ..self.view.clone() };
             view.design.page = Page::Harvest;
-            plots.push(self.figures(&view, None));
+            let mut figures = self.figures(&view, None);
+            figures.iter_mut().for_each(|figure| figure.aspect = REPORT_ASPECT);
+            plots.push(figures);
         }
         Some(Report {
             headline: reading.headline,
@@ -377,7 +386,7 @@ mod tests {
         let count = |tag: &str| page.descendants().filter(|node| node.has_tag_name(tag)).count();
         let svg = "http://www.w3.org/2000/svg";
         let drawings = page.descendants().filter(|node| node.has_tag_name((svg, "svg"))).count();
-        assert_eq!(drawings, 5, "four plots and a code");
+        assert_eq!(drawings, 6, "four plots, a close view and a code");
         assert_eq!(count("script"), 0);
         for part in ["Period 2", "1e−4", "8.0969", "480 mm", "v=1&amp;alpha=1e-4", "of the gap"] {
             assert!(text.contains(part), "{part}");

@@ -155,6 +155,8 @@ pub struct Figure {
     pub ranges: [(f64, f64); 2],
     /// Height of the plot over its width.
     pub aspect: f64,
+    /// Whether a unit is as long across as up.
+    pub equal_scale: bool,
     /// What is drawn, in this order.
     pub layers: Vec<Layer>,
     /// What colours stand for.

@@ -84,7 +84,12 @@ impl Provenance {
             .map(|dimension| {
                 let value = dimension.get(&device);
                 let value = if value.is_finite() { exact(rounded(value)) } else { "open circuit".to_owned() };
-                (dimension.field(), format!("{value} {}", dimension.unit()).trim_end().to_owned())
+                let unit = match (dimension, self.scenario.scaling) {
+                    (Dimension::Coupling, ElectricalScaling::AsPrinted) => "N/V",
+                    (Dimension::Coupling, ElectricalScaling::Consistent) => "N m/V",
+                    _ => dimension.unit(),
+                };
+                (dimension.field(), format!("{value} {unit}").trim_end().to_owned())
             })
             .collect();
         let poles = if device.repelling { "repelling" } else { "attracting" };

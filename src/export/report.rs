@@ -29,20 +29,23 @@ pub struct Report {
     pub provenance: Provenance,
 }
 
+/// Width of a plot in pixels: small, so that its texts are as large as those of the page when two stand side by side.
+const PLOT: f64 = 430.0;
+
 /// One A4 page; on screens as wide as that.
 const STYLE: &str = "
-@page { size: A4; margin: 10mm }
+@page { size: A4; margin: 9mm }
 * { box-sizing: border-box }
-body { margin: 0 auto; max-width: 190mm; padding: 4mm 0; color: #141a20; background: #fff;
+body { margin: 0 auto; max-width: 192mm; color: #141a20; background: #fff;
   font: 9pt/1.35 'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif }
 header { display: flex; gap: 6mm; justify-content: space-between; border-bottom: .4mm solid #141a20; padding-bottom: 2mm }
 h1 { font-size: 15pt; margin: 0 } h2 { font-size: 10pt; margin: 3mm 0 1mm }
 p { margin: 0 0 .8mm } .weak, footer { color: #556270 } .bad { color: #b31540; font-weight: 600 }
-.tables { display: grid; grid-template-columns: 2fr 1fr; gap: 6mm }
+.tables { display: grid; grid-template-columns: 5fr 3fr; gap: 6mm }
 .device { columns: 2; column-gap: 6mm }
 table { border-collapse: collapse; width: 100%; font-size: 8pt; line-height: 1.25 }
 td { padding: .25mm 0; border-bottom: .1mm solid #e2e7ec } td:last-child { text-align: right; white-space: nowrap }
-.plots { display: grid; grid-template-columns: 1fr 1fr; gap: 1mm 4mm; margin-top: 2mm }
+.plots { display: grid; grid-template-columns: 1fr 1fr; gap: 0 3mm; margin-top: 1mm }
 .plots svg { width: 100%; height: auto; display: block } .plots figure { margin: 0; break-inside: avoid }
 .code { width: 24mm; height: 24mm; flex: none } a { color: inherit; overflow-wrap: anywhere }
 footer { margin-top: 2mm; font-size: 7pt }
@@ -64,9 +67,13 @@ pub fn html(report: &Report) -> String {
     );
     paragraph(&mut out, "", &report.facts.join(" · "));
     paragraph(&mut out, " class=\"weak\"", &report.remarks.join(" · "));
-    for (text, holds) in &report.limits {
-        let (class, word) = if *holds { ("", "within") } else { (" class=\"bad\"", "beyond") };
-        paragraph(&mut out, class, &format!("Limit {word}: {text}"));
+    for (holds, class, word) in [(false, " class=\"bad\"", "Beyond a limit"), (true, "", "Within the limits")]
+    {
+        let checks = report.limits.iter().filter(|(_, kept)| *kept == holds);
+        let checks: Vec<&str> = checks.map(|(text, _)| text.as_str()).collect();
+        if !checks.is_empty() {
+            paragraph(&mut out, class, &format!("{word}: {}", checks.join(" · ")));
+        }
     }
     out.push_str("</div>\n");
     if let Some((side, modules)) = &report.code {
@@ -83,11 +90,12 @@ pub fn html(report: &Report) -> String {
         let value = parameter.get(&report.provenance.scenario.parameters);
         row(&mut out, name(*parameter), symbol, &typographic(&exact(value)));
     }
-    row(&mut out, "model", "", &report.provenance.model());
-    out.push_str("</table>\n</section>\n</div>\n<div class=\"plots\">\n");
+    out.push_str("</table>\n");
+    paragraph(&mut out, " class=\"weak\"", &report.provenance.model());
+    out.push_str("\n</section>\n</div>\n<div class=\"plots\">\n");
     for (number, plot) in report.plots.iter().enumerate() {
         // Identifiers are of the whole page here.
-        let (drawing, _) = svg::drawing_with(plot, &[], &format!("f{number}"));
+        let (drawing, _) = svg::drawing_with(plot, &[], PLOT, &format!("f{number}"));
         let _ = writeln!(out, "<figure>{drawing}</figure>");
     }
     out.push_str("</div>\n<footer>\n");
@@ -112,15 +120,15 @@ fn row(out: &mut String, name: &str, symbol: &str, value: &str) {
 const fn name(parameter: Parameter) -> &'static str {
     match parameter {
         Parameter::Alpha => "damping",
-        Parameter::Beta => "excitation amplitude",
-        Parameter::Omega => "excitation frequency",
+        Parameter::Beta => "excitation",
+        Parameter::Omega => "frequency",
         Parameter::C0 => "magnet strength",
         Parameter::D => "gap",
         Parameter::H => "magnet length",
         Parameter::Eta => "tip mass",
-        Parameter::C => "capacitance [V⁻²]",
-        Parameter::Kappa => "load conductance [V⁻²]",
-        Parameter::Theta => "coupling [V⁻¹]",
+        Parameter::C => "capacitance, V⁻²",
+        Parameter::Kappa => "conductance, V⁻²",
+        Parameter::Theta => "coupling, V⁻¹",
     }
 }
 

@@ -8,10 +8,10 @@ pub fn rust(request: &str) -> String {
         signs.push('#');
     }
     format!(
-        "//! Asks Harvester Lab what its page showed. Cargo.toml:
-//!
-//! [dependencies]
-//! harvester-lab = {{ path = \"harvester-lab\" }}
+        "// Asks Harvester Lab what its page showed. Cargo.toml:
+//
+// [dependencies]
+// harvester-lab = {{ path = \"harvester-lab\" }}
 
 use harvester_lab::jobs::solve;
 

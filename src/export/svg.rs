@@ -7,12 +7,12 @@ use super::markup::{escape, short};
 use super::picture::data_address;
 use super::{Axis, Figure, Pen, Rgba};
 
-/// Width of the drawing and what is kept free left and right of the plot, in pixels.
+/// Width of a drawing of its own and what is kept free left and right of a plot, in pixels.
 pub const WIDTH: f64 = 640.0;
 const LEFT: f64 = 76.0;
 const RIGHT: f64 = 20.0;
 /// Height over width that a plot may have.
-const ASPECTS: (f64, f64) = (0.4, 1.1);
+const ASPECTS: (f64, f64) = (0.5, 0.9);
 /// Sizes of texts, and heights of their lines.
 const TITLE: f64 = 15.0;
 const TEXT: f64 = 12.0;
@@ -20,7 +20,7 @@ const SMALL: f64 = 9.5;
 const KEY_ROW: f64 = 18.0;
 const CAPTION_ROW: f64 = 13.0;
 /// Width of a letter over its size, on average, and for the widest.
-const LETTER: f64 = 0.54;
+const LETTER: f64 = 0.52;
 const FONT: &str = "'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 const INK: Rgba = [20, 26, 32, 255];
 const FAINT: Rgba = [85, 98, 112, 255];
@@ -29,11 +29,16 @@ const GRID: Rgba = [226, 231, 236, 255];
 /// A drawing of the plots of one card, one below the other, with a caption. The text, and its width and height in
 /// pixels.
 pub fn drawing(figures: &[Figure], caption: &[String]) -> (String, [f64; 2]) {
-    drawing_with(figures, caption, "plot")
+    drawing_with(figures, caption, WIDTH, "plot")
 }
 
-/// The same; `prefix` tells its identifiers from those of other drawings on a page.
-pub(super) fn drawing_with(figures: &[Figure], caption: &[String], prefix: &str) -> (String, [f64; 2]) {
+/// The same in another width; `prefix` tells its identifiers from those of other drawings on a page.
+pub(super) fn drawing_with(
+    figures: &[Figure],
+    caption: &[String],
+    width: f64,
+    prefix: &str,
+) -> (String, [f64; 2]) {
     let mut body = String::new();
     let mut y = 10.0;
     for (number, figure) in figures.iter().enumerate() {
@@ -42,9 +47,9 @@ pub(super) fn drawing_with(figures: &[Figure], caption: &[String], prefix: &str)
             text(&mut body, [LEFT, y], TITLE, INK, "start", " font-weight=\"600\"", &figure.title);
             y += 7.0;
         }
-        y = panel(&mut body, figure, &format!("{prefix}-{number}"), y);
+        y = panel(&mut body, figure, &format!("{prefix}-{number}"), width, y);
     }
-    for line in caption.iter().flat_map(|text| wrapped(text, WIDTH - LEFT - RIGHT, SMALL)) {
+    for line in caption.iter().flat_map(|text| wrapped(text, width - LEFT - RIGHT, SMALL)) {
         y += CAPTION_ROW;
         text(&mut body, [LEFT, y], SMALL, FAINT, "start", "", &line);
     }
@@ -54,12 +59,12 @@ pub(super) fn drawing_with(figures: &[Figure], caption: &[String], prefix: &str)
     let mut out = String::with_capacity(body.len() + 900);
     let _ = write!(
         out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" \
-         viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" font-family=\"{FONT}\">\n<title>{}</title>\n\
-         <desc>{described}</desc>\n<rect width=\"{WIDTH}\" height=\"{height}\" fill=\"#fff\"/>\n{body}</svg>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"{FONT}\">\n<title>{}</title>\n\
+         <desc>{described}</desc>\n<rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n{body}</svg>\n",
         escape(title),
     );
-    (out, [WIDTH, height])
+    (out, [width, height])
 }
 
 /// Where a plot is drawn.
@@ -89,15 +94,21 @@ impl Frame {
 }
 
 /// Draws one plot from `top` down; returns where it ends.
-fn panel(out: &mut String, figure: &Figure, id: &str, top: f64) -> f64 {
+fn panel(out: &mut String, figure: &Figure, id: &str, whole: f64, top: f64) -> f64 {
     let Some([x, y]) = &figure.axes else { return top };
     if !figure.is_usable() {
         return top;
     }
-    let top = keys(out, figure, top + 4.0) + 6.0;
-    let width = WIDTH - LEFT - RIGHT;
+    let top = keys(out, figure, whole - RIGHT, top + 4.0) + 9.0;
+    let width = whole - LEFT - RIGHT;
     let height = (width * figure.aspect.clamp(ASPECTS.0, ASPECTS.1)).round();
-    let frame = Frame { left: LEFT, top, width, height, ranges: figure.ranges };
+    let mut ranges = figure.ranges;
+    if figure.equal_scale {
+        let (middle, up) = (0.5 * (ranges[0].0 + ranges[0].1), ranges[1].1 - ranges[1].0);
+        let half = 0.5 * up * width / height;
+        ranges[0] = (middle - half, middle + half);
+    }
+    let frame = Frame { left: LEFT, top, width, height, ranges };
     axes(out, &frame, x, y);
     let _ = writeln!(
         out,
@@ -305,7 +316,7 @@ impl Entry<'_> {
 }
 
 /// The legend from `top` down, in as many rows as it needs; returns where it ends.
-fn keys(out: &mut String, figure: &Figure, top: f64) -> f64 {
+fn keys(out: &mut String, figure: &Figure, end: f64, top: f64) -> f64 {
     let mut entries: Vec<Entry<'_>> = Vec::new();
     for layer in &figure.layers {
         let (key, sample) = match layer {
@@ -326,7 +337,6 @@ fn keys(out: &mut String, figure: &Figure, top: f64) -> f64 {
         entries.push(Entry { sample, text: text.clone() });
     }
     let (mut x, mut y) = (LEFT, top);
-    let end = WIDTH - RIGHT;
     for (i, entry) in entries.iter().enumerate() {
         let size = entry.lead() + width(&entry.text, TEXT);
         if i == 0 || x + size > end {

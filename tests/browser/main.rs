@@ -3,6 +3,7 @@
 mod agreement;
 mod design;
 mod driver;
+mod export;
 mod lessons;
 mod page;
 mod server;

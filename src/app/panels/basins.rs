@@ -52,18 +52,23 @@ fn colour(attractor: &Attractor, tokens: &Tokens) -> Color32 {
     }
 }
 
+/// What it is, without what differs from start to start.
+fn name(attractor: &Attractor) -> String {
+    match attractor.cell.motion {
+        Motion::Escape { .. } => "escape".to_owned(),
+        Motion::Contact { .. } => "contact".to_owned(),
+        Motion::Undecided { .. } => "undecided".to_owned(),
+        motion => format!("{motion}, {} V", significant(attractor.cell.v_rms, 3)),
+    }
+}
+
 /// The attractors found, most frequent first; a click starts on one.
 fn list(context: &mut Context<'_>, ui: &mut Ui, attractors: &[Attractor]) {
     let tokens = theme::tokens(ui);
     ui.label(RichText::new("share of the starts").small().color(tokens.text_weak));
     for attractor in attractors.iter().take(LISTED) {
         let share = format!("{} %", significant(100.0 * attractor.fraction, 3));
-        let name = match attractor.cell.motion {
-            Motion::Escape { .. } => "escape".to_owned(),
-            Motion::Contact { .. } => "contact".to_owned(),
-            Motion::Undecided { .. } => "undecided".to_owned(),
-            motion => format!("{motion}, {} V", significant(attractor.cell.v_rms, 3)),
-        };
+        let name = name(attractor);
         if attractor_row(ui, colour(attractor, tokens), &name, &share).clicked() {
             let start = attractor.start.clone();
             context.edit(|scenario| scenario.initial = Some(start));
@@ -100,8 +105,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
                 draw_raster(plot, picture, x, y, opacity);
                 let value = |column, row| {
                     basin.chart().cell(column, row)?;
-                    let attractor = attractors.get(basin.shown(column, row)??)?;
-                    Some(format!("{}: {}", attractor.number + 1, attractor.cell.motion))
+                    attractors.get(basin.shown(column, row)??).map(name)
                 };
                 recorder::cells(plot, "motion reached", question.size, [x, y], &value);
             }

@@ -77,7 +77,10 @@ pub fn name(context: &Context, series: Series, label: &str) {
 
 /// An entry of a legend of colours.
 pub fn key(context: &Context, make: &mut dyn FnMut() -> Key) {
-    with(context, &mut |recorder| recorder.keys.push(make()));
+    with(context, &mut |recorder| match recorder.figures.last_mut() {
+        Some(figure) if figure.title == recorder.card => figure.keys.push(make()),
+        _ => recorder.keys.push(make()),
+    });
 }
 
 /// A plot begins. Axes without names are those of the plot before it in the same card.
@@ -103,6 +106,9 @@ pub fn draw(plot: &PlotUi<'_>, make: &mut dyn FnMut() -> Layer) {
             figure.ranges = [(left, right), (bottom, top)];
             let frame = plot.transform().frame();
             figure.aspect = f64::from(frame.height() / frame.width());
+            let [across, up] =
+                [plot.transform().dpos_dvalue_x(), plot.transform().dpos_dvalue_y()].map(f64::abs);
+            figure.equal_scale = (across / up - 1.0).abs() < 1e-3;
         }
         figure.layers.push(make());
     });
@@ -113,6 +119,15 @@ pub fn over(context: &Context, make: &mut dyn FnMut() -> Layer) {
     with(context, &mut |recorder| {
         if let Some(figure) = recorder.figures.last_mut() {
             figure.layers.push(make());
+        }
+    });
+}
+
+/// What of the plot that began last is to be seen upwards: the page may keep room for what is laid over it.
+pub fn show_upwards(context: &Context, low: f64, high: f64) {
+    with(context, &mut |recorder| {
+        if let Some(figure) = recorder.figures.last_mut() {
+            figure.ranges[1] = (low, high);
         }
     });
 }

@@ -67,6 +67,7 @@ pub fn colour_bar(ui: &mut Ui, low: &str, high: &str, colour: impl Fn(f64) -> Co
 
 /// A row that can be clicked: a coloured square, a name, and a quiet number at the right.
 pub fn attractor_row(ui: &mut Ui, colour: Color32, name: &str, number: &str) -> Response {
+    recorder::key(ui.ctx(), &mut || Key::Swatch(recorder::rgba(colour), format!("{name} ({number})")));
     let tokens = theme::tokens(ui);
     let size = vec2(ui.available_width(), 24.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
