@@ -29,7 +29,7 @@ const PICTURE_SCALE: u8 = 2;
 /// Size of the page on which the plots of a report are drawn, points.
 const REPORT_PAGE: [f32; 2] = [1100.0, 980.0];
 /// Height over width of a plot in a report.
-const REPORT_ASPECT: f64 = 0.5;
+const REPORT_ASPECT: f64 = 0.42;
 /// Frames until the plots of a page that was not drawn before have found their bounds.
 const SETTLING: usize = 3;
 /// What is said when there is nothing to save.

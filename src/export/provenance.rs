@@ -112,7 +112,9 @@ impl Provenance {
                 format!("{symbol} = {value}")
             })
             .collect();
-        format!("{}; {}; {}. {PROGRAM}", numbers.join(", "), self.model(), self.run())
+        let text = format!("{}; {}; {}. {PROGRAM}", numbers.join(", "), self.model(), self.run());
+        // Lines break between statements only.
+        text.replace(" = ", "\u{a0}=\u{a0}").replacen(" mode", "\u{a0}mode", 1)
     }
 }
 
@@ -156,6 +158,7 @@ mod tests {
         assert!(value("solver").ends_with("8 nodes, adaptive steps, tolerance 1e-5 of the gap, 1234 steps"));
         assert_eq!(value("device.beam_length"), "0.48 m");
         assert_eq!(value("link"), "https://example.org/#v=1");
-        assert!(source.caption().starts_with("α = 1e−4, β = 0.001, ω = 25, c₀ = 0.5084"));
+        let caption = source.caption().replace('\u{a0}', " ");
+        assert!(caption.starts_with("α = 1e−4, β = 0.001, ω = 25, c₀ = 0.5084"), "{caption}");
     }
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::markup::escape;
 use super::number::{exact, typographic};
-use super::provenance::{PROGRAM, SYMBOLS};
+use super::provenance::SYMBOLS;
 use super::{Figure, Provenance, svg};
 use crate::model::Parameter;
 
@@ -30,20 +30,20 @@ pub struct Report {
 }
 
 /// Width of a plot in pixels: small, so that its texts are as large as those of the page when two stand side by side.
-const PLOT: f64 = 430.0;
+const PLOT: f64 = 480.0;
 
 /// One A4 page; on screens as wide as that.
 const STYLE: &str = "
 @page { size: A4; margin: 9mm }
 * { box-sizing: border-box }
 body { margin: 0 auto; max-width: 192mm; color: #141a20; background: #fff;
-  font: 9pt/1.35 'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif }
+  font: 8.5pt/1.3 'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif }
 header { display: flex; gap: 6mm; justify-content: space-between; border-bottom: .4mm solid #141a20; padding-bottom: 2mm }
 h1 { font-size: 15pt; margin: 0 } h2 { font-size: 10pt; margin: 3mm 0 1mm }
 p { margin: 0 0 .8mm } .weak, footer { color: #556270 } .bad { color: #b31540; font-weight: 600 }
 .tables { display: grid; grid-template-columns: 5fr 3fr; gap: 6mm }
 .device { columns: 2; column-gap: 6mm }
-table { border-collapse: collapse; width: 100%; font-size: 8pt; line-height: 1.25 }
+table { border-collapse: collapse; width: 100%; font-size: 8pt; line-height: 1.2 }
 td { padding: .25mm 0; border-bottom: .1mm solid #e2e7ec } td:last-child { text-align: right; white-space: nowrap }
 .plots { display: grid; grid-template-columns: 1fr 1fr; gap: 0 3mm; margin-top: 1mm }
 .plots svg { width: 100%; height: auto; display: block } .plots figure { margin: 0; break-inside: avoid }
@@ -101,7 +101,7 @@ pub fn html(report: &Report) -> String {
     out.push_str("</div>\n<footer>\n");
     paragraph(&mut out, "", &report.provenance.caption());
     let link = escape(&report.provenance.link);
-    let _ = write!(out, "<p>{PROGRAM} · <a href=\"{link}\">{link}</a></p>\n</footer>\n</body>\n</html>\n");
+    let _ = write!(out, "<p><a href=\"{link}\">{link}</a></p>\n</footer>\n</body>\n</html>\n");
     out
 }
 

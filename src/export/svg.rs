@@ -12,7 +12,7 @@ pub const WIDTH: f64 = 640.0;
 const LEFT: f64 = 76.0;
 const RIGHT: f64 = 20.0;
 /// Height over width that a plot may have.
-const ASPECTS: (f64, f64) = (0.5, 0.9);
+const ASPECTS: (f64, f64) = (0.42, 0.9);
 /// Sizes of texts, and heights of their lines.
 const TITLE: f64 = 15.0;
 const TEXT: f64 = 12.0;
@@ -308,6 +308,7 @@ enum Sample<'a> {
 impl Entry<'_> {
     fn lead(&self) -> f64 {
         match &self.sample {
+            Sample::Pen(_, Pen::Points(_) | Pen::Rings(_)) => 18.0,
             Sample::Pen(..) => 34.0,
             Sample::Swatch(_) => 18.0,
             Sample::Scale(_, low) => width(low, TEXT) + 122.0,
@@ -361,11 +362,11 @@ fn sample(out: &mut String, sample: &Sample<'_>, x: f64, middle: f64) {
             );
         }
         Sample::Pen(colour, Pen::Points(radius)) => {
-            let (x, r) = (short(x + 14.0), short(f64::from(*radius).max(2.0)));
+            let (x, r) = (short(x + 6.0), short(f64::from(*radius).max(2.0)));
             let _ = writeln!(out, "<circle cx=\"{x}\" cy=\"{at}\" r=\"{r}\"{}/>", filled(*colour));
         }
         Sample::Pen(colour, Pen::Rings(radius)) => {
-            let (x, r) = (short(x + 14.0), short(f64::from(*radius)));
+            let (x, r) = (short(x + 6.0), short(f64::from(*radius)));
             let look = stroke(*colour, 1.2);
             let _ = writeln!(out, "<circle cx=\"{x}\" cy=\"{at}\" r=\"{r}\" fill=\"none\"{look}/>");
         }
