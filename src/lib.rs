@@ -15,7 +15,7 @@
 //! * [`scenario`] is everything a view depends on, as stored and shared.
 //! * `app` (feature `app`) is the egui front end; it draws what the other modules computed.
 //!
-//! Dependencies point one way: app -> jobs -> dynamics, theory -> model. Everything is dimensionless unless a
+//! Dependencies point one way: app -> export, jobs -> dynamics, theory -> model. Everything is dimensionless unless a
 //! docstring names a unit; time is counted in units of `sqrt(m_b L^3 / (E I))`, lengths in units of the beam's
 //! length, voltages in volts.
 

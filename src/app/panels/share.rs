@@ -116,14 +116,16 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
 
 /// Buttons that copy the question of the tab in view as a program.
 fn copy_as(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory) {
-    let languages: [(&str, fn(&str) -> String); 2] = [("Rust", snippet::rust), ("Python", snippet::python)];
     let now = ui.input(|input| input.time);
     ui.horizontal(|ui| {
-        for (name, program) in languages {
+        for name in ["Rust", "Python"] {
             let copied = memory.program.is_some_and(|(which, then)| which == name && now - then < COPIED);
             let text = if copied { "Copied".to_owned() } else { format!("Copy as {name}") };
             if ui.button(text).on_hover_text("A program that asks the solver the same").clicked() {
-                ui.ctx().copy_text(program(&request(context.view, context.session)));
+                let question = request(context.view, context.session);
+                let program =
+                    if name == "Rust" { snippet::rust(&question) } else { snippet::python(&question) };
+                ui.ctx().copy_text(program);
                 ui.ctx().request_repaint_after_secs(COPIED as f32 + 0.1);
                 memory.program = Some((name, now));
             }

@@ -200,6 +200,26 @@ mod tests {
     }
 
     #[test]
+    fn the_menu_of_a_card_says_what_to_save_it_as_also_where_it_is_narrow() {
+        let mut harness = Harness::new(340.0, 300.0);
+        let mut export = None;
+        let mut draw = |ui: &mut Ui| {
+            let card = Card::new("Stability near ω₁+ω₂").hint("drag or click to move").exports();
+            let shown = card.button(Icon::Enlarge, "Enlarge").show(ui, |ui| ui.label("a plot"));
+            export = export.or(shown.export);
+        };
+        harness.settle(&mut draw);
+        let button = harness.find(egui::Role::Button, "Export: Stability").bounds;
+        let beside = harness.find(egui::Role::Button, "Enlarge: Stability").bounds;
+        assert!(button.right() <= beside.left() && button.left() > 200.0, "{button:?} {beside:?}");
+        harness.click(button.center(), &mut draw);
+        harness.settle(&mut draw);
+        let choice = harness.find(egui::Role::Button, "CSV").bounds.center();
+        harness.click(choice, &mut draw);
+        assert_eq!(export, Some(Format::Csv));
+    }
+
+    #[test]
     fn a_hugging_card_is_as_tall_as_its_contents() {
         let mut harness = Harness::new(500.0, 300.0);
         harness.settle(|ui| {

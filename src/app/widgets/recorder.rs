@@ -1,4 +1,4 @@
-//! Takes down what is drawn, for files. It is there only in frames that nobody sees (see `app/exports.rs`); in others
+//! Takes down what is drawn, for files. It is there only in frames that nobody sees (see `app/exporting.rs`); in others
 //! everything here does nothing.
 
 use std::collections::HashMap;
