@@ -11,14 +11,16 @@
 //! * [`dynamics`] integrates: the classical Runge-Kutta run of the paper, and an error-controlled exponential
 //!   collocation that does the same run a thousand times faster.
 //! * [`jobs`] is the one request and answer type that the page, JavaScript and the native command share.
+//! * [`export`] writes plots as SVG and CSV, a report as HTML, and a question as a program.
 //! * [`scenario`] is everything a view depends on, as stored and shared.
 //! * `app` (feature `app`) is the egui front end; it draws what the other modules computed.
 //!
-//! Dependencies point one way: app -> jobs -> dynamics, theory -> model. Everything is dimensionless unless a
+//! Dependencies point one way: app -> export, jobs -> dynamics, theory -> model. Everything is dimensionless unless a
 //! docstring names a unit; time is counted in units of `sqrt(m_b L^3 / (E I))`, lengths in units of the beam's
 //! length, voltages in volts.
 
 pub mod dynamics;
+pub mod export;
 pub mod jobs;
 pub mod model;
 pub mod scenario;

@@ -4,6 +4,7 @@ use super::bench::measured::Reading;
 use super::lessons::course::Action;
 use super::view::design::DesignView;
 use super::view::{Layer, MapWindow, Panel, SweepView, Tab};
+use crate::export::Format;
 use crate::model::Parameter;
 use crate::scenario::Scenario;
 
@@ -52,6 +53,10 @@ pub(super) enum Command {
     Redo,
     /// Save what is in view as a file.
     SaveFile,
+    /// Save the plots of the card with this title.
+    Export(String, Format),
+    /// Save a report on the device and its motion.
+    Report,
     /// Ask for a file to open: a scenario, or measured data.
     OpenFile,
 }

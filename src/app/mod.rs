@@ -20,6 +20,7 @@ mod command;
 mod comparison;
 pub mod crew;
 mod curves;
+mod exporting;
 mod figures;
 mod history;
 mod keyboard;
@@ -47,6 +48,8 @@ use session::{Session, Status};
 use sharing::Errand;
 use view::{MapWindow, Tab, View};
 
+use crate::export::Format;
+
 /// Width of the left column, of that with units beside the numbers, and page width below which the columns are stacked.
 const COLUMN: f32 = 296.0;
 const WIDE_COLUMN: f32 = 336.0;
@@ -65,6 +68,8 @@ pub struct App {
     address: String,
     /// What the browser is to do.
     errands: Vec<Errand>,
+    /// Cards to be saved at the end of this frame.
+    exports: Vec<(String, Format)>,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool)>,
 }
@@ -78,9 +83,20 @@ impl App {
         session.ask(&view.scenario);
         let (bench, course) = (Bench::default(), Course::restore(stored));
         let history = history::History::default();
-        let (address, errands) = (String::new(), Vec::new());
-        let mut app =
-            Self { view, session, crew, bench, course, notice, history, address, errands, styled: None };
+        let (address, errands, exports) = (String::new(), Vec::new(), Vec::new());
+        let mut app = Self {
+            view,
+            session,
+            crew,
+            bench,
+            course,
+            notice,
+            history,
+            address,
+            errands,
+            exports,
+            styled: None,
+        };
         app.style(context);
         app
     }
@@ -159,6 +175,9 @@ impl App {
         for command in commands {
             self.step(command, hand);
         }
+        for (title, format) in std::mem::take(&mut self.exports) {
+            self.export(ui.ctx(), &title, format);
+        }
         self.follow();
         ui.ctx().request_repaint();
     }
@@ -199,6 +218,8 @@ impl App {
             Command::Undo => self.undo(),
             Command::Redo => self.redo(),
             Command::SaveFile => self.save_file(),
+            Command::Export(title, format) => self.exports.push((title, format)),
+            Command::Report => self.save_report(),
             Command::OpenFile => self.errands.push(Errand::Open),
         }
     }

@@ -16,8 +16,10 @@ const LOOKS: [&str; 3] = ["dark", "projector", "beam_moves"];
 /// What only the browser can do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Errand {
-    /// Save a text as a file of this name.
-    Save(&'static str, String),
+    /// Save a text as a file of this name and type.
+    Save(String, &'static str, String),
+    /// Make a picture of this drawing with so many times its pixels, and save it under this name.
+    Picture(String, String, u8),
     /// Ask for a file, and pass it to [`App::open_file`].
     Open,
 }
@@ -102,7 +104,7 @@ impl App {
         if let Some(entries) = value.as_object_mut() {
             entries.retain(|name, _| !LOOKS.contains(&name.as_str()));
         }
-        self.errands.push(Errand::Save(FILE_NAME, format!("{value:#}\n")));
+        self.errands.push(Errand::Save(FILE_NAME.to_owned(), "application/json", format!("{value:#}\n")));
     }
 }
 
@@ -170,7 +172,7 @@ mod tests {
         let saved = app.view.clone();
         do_it(&mut app, Command::SaveFile);
         let errands = app.take_errands();
-        let [Errand::Save(name, text)] = errands.as_slice() else { panic!("{errands:?}") };
+        let [Errand::Save(name, _, text)] = errands.as_slice() else { panic!("{errands:?}") };
         assert!(name.ends_with(".json") && text.contains("\"omega\": 25.4"), "{text}");
         assert!(!text.contains("projector"), "{text}");
         do_it(&mut app, Command::LoadFigure(9));

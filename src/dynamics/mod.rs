@@ -74,6 +74,7 @@ pub use orbit_error::OrbitError;
 pub use outcome::{IntegrationError, Outcome};
 pub use period_map::PeriodMap;
 pub use plane::{Axis, Plane};
+pub use rule::NODES;
 pub use search::Search;
 pub use tongue::{Tongue, trace_tongue};
 pub use trajectory::Trajectory;

@@ -4,6 +4,7 @@ mod agreement;
 mod axe;
 mod design;
 mod driver;
+mod export;
 mod failure;
 mod firefox;
 mod keyboard;

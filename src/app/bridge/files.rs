@@ -5,6 +5,7 @@ use wasm_bindgen::prelude::Closure;
 use wasm_bindgen::{JsCast as _, JsValue};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Url};
 
+use super::shell;
 use crate::app::sharing::Errand;
 
 /// The element that opens the dialog; tests find it by this.
@@ -16,7 +17,11 @@ const SAVING: i32 = 60_000;
 pub(super) fn run(errand: &Errand) {
     // Without a page there is nobody to save or open anything for.
     let _ = match errand {
-        Errand::Save(name, text) => save(name, text),
+        Errand::Save(name, kind, text) => save(name, kind, text),
+        Errand::Picture(name, drawing, scale) => {
+            wasm_bindgen_futures::spawn_local(picture(name.clone(), drawing.clone(), *scale));
+            Some(())
+        }
         Errand::Open => open(),
     };
 }
@@ -25,9 +30,19 @@ fn document() -> Option<web_sys::Document> {
     web_sys::window()?.document()
 }
 
-fn save(name: &str, text: &str) -> Option<()> {
+/// Has the browser draw the picture, and says when it cannot.
+async fn picture(name: String, drawing: String, scale: u8) {
+    let drawn = shell::save_picture(&name, &drawing, scale);
+    if wasm_bindgen_futures::JsFuture::from(drawn).await.is_err() {
+        super::change(|app, _| {
+            app.tell("This browser could not make the picture. SVG and CSV need no help of it.")
+        });
+    }
+}
+
+fn save(name: &str, kind: &str, text: &str) -> Option<()> {
     let options = BlobPropertyBag::new();
-    options.set_type("application/json");
+    options.set_type(kind);
     let parts = js_sys::Array::of1(&JsValue::from_str(text));
     let blob = Blob::new_with_str_sequence_and_options(&parts, &options).ok()?;
     let address = Url::create_object_url_with_blob(&blob).ok()?;

@@ -1,5 +1,6 @@
-//! The calls into the script of the page (`assets/shell/start.js`).
+//! The calls into the script of the page (`assets/shell/start.js`, `assets/shell/picture.js`).
 
+use js_sys::Promise;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -16,6 +17,10 @@ extern "C" {
     /// Tells what the native controls mirror has changed to, as JSON.
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn changed(mirror: &str);
+
+    /// Saves a picture of a drawing (SVG) under this name, with `scale` times its pixels.
+    #[wasm_bindgen(js_name = harvesterSavePicture)]
+    pub(super) fn save_picture(name: &str, drawing: &str, scale: u8) -> Promise;
 
     /// A new worker that has been told to run this (compiled) `module`, or null.
     #[wasm_bindgen(js_namespace = harvesterShell)]

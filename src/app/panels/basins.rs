@@ -8,7 +8,7 @@ use crate::app::theme::{self, Tokens};
 use crate::app::view::Panel;
 use crate::app::widgets::number::{round_significant, significant};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{attractor_row, draw_raster, raster};
+use crate::app::widgets::{attractor_row, draw_raster, raster, recorder};
 use crate::dynamics::motion::Motion;
 use crate::jobs::study::Study as _;
 use crate::jobs::study::basin::{Attractor, Basin};
@@ -52,18 +52,23 @@ fn colour(attractor: &Attractor, tokens: &Tokens) -> Color32 {
     }
 }
 
+/// What it is, without what differs from start to start.
+fn name(attractor: &Attractor) -> String {
+    match attractor.cell.motion {
+        Motion::Escape { .. } => "escape".to_owned(),
+        Motion::Contact { .. } => "contact".to_owned(),
+        Motion::Undecided { .. } => "undecided".to_owned(),
+        motion => format!("{motion}, {} V", significant(attractor.cell.v_rms, 3)),
+    }
+}
+
 /// The attractors found, most frequent first; a click starts on one.
 fn list(context: &mut Context<'_>, ui: &mut Ui, attractors: &[Attractor]) {
     let tokens = theme::tokens(ui);
     ui.label(RichText::new("share of the starts").small().color(tokens.text_weak));
     for attractor in attractors.iter().take(LISTED) {
         let share = format!("{} %", significant(100.0 * attractor.fraction, 3));
-        let name = match attractor.cell.motion {
-            Motion::Escape { .. } => "escape".to_owned(),
-            Motion::Contact { .. } => "contact".to_owned(),
-            Motion::Undecided { .. } => "undecided".to_owned(),
-            motion => format!("{motion}, {} V", significant(attractor.cell.v_rms, 3)),
-        };
+        let name = name(attractor);
         if attractor_row(ui, colour(attractor, tokens), &name, &share).clicked() {
             let start = attractor.start.clone();
             context.edit(|scenario| scenario.initial = Some(start));
@@ -98,6 +103,11 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
             if let Some(picture) = &picture {
                 let opacity = if basin.chart().version() == 0 { 0.4 } else { 1.0 };
                 draw_raster(plot, picture, x, y, opacity);
+                let value = |column, row| {
+                    basin.chart().cell(column, row)?;
+                    attractors.get(basin.shown(column, row)??).map(name)
+                };
+                recorder::cells(plot, "motion reached", question.size, [x, y], &value);
             }
             let places: Vec<(String, PlotPoint)> = attractors
                 .iter()

@@ -10,9 +10,11 @@ use crate::app::command::Command;
 use crate::app::map::{Boundaries, ceiling};
 use crate::app::theme::{self, Tokens};
 use crate::app::view::{Layer, Panel};
-use crate::app::widgets::number::significant;
+use crate::app::widgets::number::{self, significant};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{HATCH, Series, chips, colour_bar, draw_cells, on_hatching, raster, swatches};
+use crate::app::widgets::{
+    HATCH, Series, chips, colour_bar, draw_cells, on_hatching, raster, recorder, swatches,
+};
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
 use crate::dynamics::motion::{Cell, Motion};
@@ -172,6 +174,45 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
     })
 }
 
+/// Notes the values behind the picture for files.
+fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f64); 2]) {
+    let layer = context.view.layer;
+    if layer == Layer::Multiplier {
+        // Before that, columns that are not known look like their neighbours.
+        let found = context.studies.multipliers.study().filter(|chart| chart.finished());
+        let Some(chart) = found else { return };
+        let value = |column, row| {
+            chart
+                .shown(column, row)
+                .map(|found| found.map_or_else(String::new, |(modulus, _)| number::exact(modulus)))
+        };
+        recorder::cells(
+            plot,
+            "largest multiplier of the forced motion",
+            chart.question().size,
+            ranges,
+            &value,
+        );
+        return;
+    }
+    let Some(chart) = context.studies.motions.study() else { return };
+    let factor = microwatts(&context.view.scenario);
+    let value = |column, row| {
+        let cell = chart.cell(column, row)??;
+        Some(match layer {
+            Layer::Voltage => number::exact(cell.v_rms),
+            Layer::Power => number::exact(factor * cell.power),
+            _ => cell.motion.to_string(),
+        })
+    };
+    let name = match layer {
+        Layer::Voltage => "voltage of the motion reached, rms [V]",
+        Layer::Power => "power of the motion reached [µW]",
+        _ => "motion reached",
+    };
+    recorder::cells(plot, name, chart.question().size, ranges, &value);
+}
+
 fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let p = context.view.scenario.parameters;
     let window = context.view.map;
@@ -189,6 +230,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
             plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
             if let Some(Picture { texture, side, omega, beta, known }) = &picture {
                 draw_cells(plot, texture, *side, *omega, *beta, if *known { 1.0 } else { 0.5 });
+                record(context, plot, [*omega, *beta]);
             }
             for tongue in &boundaries.tongues {
                 plot_style::series(plot, Series::Published, "published boundary", &tongue.published);

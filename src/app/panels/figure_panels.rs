@@ -47,7 +47,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure, lett
     let Some((initial_until, window)) = figure.windows() else { return };
     let with_theory = letter != Letter::InitialHistory && figure.number != 12;
     let hint = if with_theory { "dots: first-order theory" } else { "" };
-    Card::new(title).hint(hint).show(ui, |ui| {
+    let shown = Card::new(title).hint(hint).exports().show(ui, |ui| {
         if context.is_stale() {
             ui.multiply_opacity(0.55);
         }
@@ -59,6 +59,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure, lett
             Letter::PoincareMap => strobe(ui, figure, shown),
         }
     });
+    context.export(title, shown.export);
 }
 
 fn history(ui: &mut Ui, figure: &Figure, shown: &Shown, [from, to]: [f64; 2], theory: bool) {

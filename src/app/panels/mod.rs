@@ -6,7 +6,7 @@ pub(super) mod chart;
 pub(super) mod controls;
 pub(super) mod curves;
 pub(super) mod design;
-mod device;
+pub(super) mod device;
 pub(super) mod evidence;
 pub(super) mod explore;
 pub(super) mod figure_boundaries;
@@ -38,6 +38,7 @@ use super::lessons::Course;
 use super::session::{Session, Shown, Status};
 use super::view::{Panel, View};
 use super::widgets::{Card, Icon};
+use crate::export::Format;
 
 /// What a panel may look at, and where it leaves its wishes.
 pub(super) struct Context<'a> {
@@ -78,6 +79,13 @@ impl<'a> Context<'a> {
         self.session.status() != Status::Done
     }
 
+    /// Asks for a file of what the card with this title shows.
+    pub(super) fn export(&mut self, title: &str, format: Option<Format>) {
+        if let Some(format) = format {
+            self.commands.push(Command::Export(title.to_owned(), format));
+        }
+    }
+
     /// A card for one of the four plots, with its button to enlarge; a press is carried out.
     pub(super) fn plot_card(
         &mut self,
@@ -89,13 +97,14 @@ impl<'a> Context<'a> {
     ) {
         let large = self.view.enlarged == Some(panel);
         let (icon, label) = if large { (Icon::Shrink, "Show all plots") } else { (Icon::Enlarge, "Enlarge") };
-        let card = Card::new(title).hint(hint).button(icon, label);
+        let card = Card::new(title).hint(hint).exports().button(icon, label);
         let shown = card.show(ui, |ui| {
             if self.is_stale() {
                 ui.multiply_opacity(0.55);
             }
             contents(self, ui);
         });
+        self.export(title, shown.export);
         if shown.pressed.is_some() {
             self.commands.push(Command::Enlarge((!large).then_some(panel)));
         }

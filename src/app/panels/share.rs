@@ -4,9 +4,11 @@ use egui::{Color32, Id, Modal, Popup, PopupCloseBehavior, RichText, TextEdit, Ui
 
 use super::Context;
 use crate::app::command::Command;
+use crate::app::exporting::request;
 use crate::app::view::View;
 use crate::app::widgets::{Icon, icon_button, qr_code};
 use crate::app::{fonts, link, theme};
+use crate::export::snippet;
 
 /// Width of the popover, and the side of its code.
 const WIDTH: f32 = 300.0;
@@ -23,6 +25,8 @@ struct Memory {
     large: bool,
     /// When the link was copied, by egui's clock.
     copied: Option<f64>,
+    /// Which program was copied when.
+    program: Option<(&'static str, f64)>,
 }
 
 /// Draws the buttons from right to left, and what they open.
@@ -98,10 +102,35 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
         if ui.button("Open file").clicked() {
             context.commands.push(Command::OpenFile);
         }
+        let report =
+            ui.button("Report").on_hover_text("One page to print: device, verdict, limits and plots");
+        if report.clicked() {
+            context.commands.push(Command::Report);
+        }
     });
+    copy_as(context, ui, memory);
     ui.label(
         RichText::new("or drop a scenario or measured data on the page").small().color(tokens.text_weak),
     );
+}
+
+/// Buttons that copy the question of the tab in view as a program.
+fn copy_as(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory) {
+    let now = ui.input(|input| input.time);
+    ui.horizontal(|ui| {
+        for name in ["Rust", "Python"] {
+            let copied = memory.program.is_some_and(|(which, then)| which == name && now - then < COPIED);
+            let text = if copied { "Copied".to_owned() } else { format!("Copy as {name}") };
+            if ui.button(text).on_hover_text("A program that asks the solver the same").clicked() {
+                let question = request(context.view, context.session);
+                let program =
+                    if name == "Rust" { snippet::rust(&question) } else { snippet::python(&question) };
+                ui.ctx().copy_text(program);
+                ui.ctx().request_repaint_after_secs(COPIED as f32 + 0.1);
+                memory.program = Some((name, now));
+            }
+        }
+    });
 }
 
 /// Opens the large code in place of the popover.

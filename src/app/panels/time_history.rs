@@ -7,8 +7,8 @@ use super::Context;
 use crate::app::session::Shown;
 use crate::app::theme;
 use crate::app::view::Panel;
-use crate::app::widgets::Series;
 use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Series, recorder};
 use crate::dynamics::Outcome;
 
 /// Periods in view below which the curve itself is drawn instead of its envelope.
@@ -71,6 +71,8 @@ fn whole(context: &Context<'_>, ui: &mut Ui, shown: &Shown, taken: f64) {
                 plot_style::series(plot, Series::Numeric, "voltage", &dense);
             }
         });
+    let room = 0.06 * (top - bottom);
+    recorder::show_upwards(ui.ctx(), bottom - room, top + room);
     let bounds = response.transform.bounds();
     ui.data_mut(|data| data.insert_temp(id, [bounds.min()[0], bounds.max()[0]]));
 }

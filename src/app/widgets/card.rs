@@ -1,9 +1,11 @@
 //! A titled panel with rounded corners.
 
-use egui::{Align2, Layout, Rect, Response, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Layout, Popup, Rect, Response, Sense, Ui, UiBuilder, pos2, vec2};
 
 use super::icon::{self, BUTTON_SIDE, Icon};
+use super::recorder;
 use crate::app::{fonts, theme};
+use crate::export::Format;
 
 /// Height of the title row and inner margin, points.
 const TITLE_ROW: f32 = 34.0;
@@ -33,6 +35,8 @@ pub struct CardResponse<R> {
     pub inner: R,
     /// The icon button that was pressed.
     pub pressed: Option<Icon>,
+    /// What the card is to be saved as.
+    pub export: Option<Format>,
     /// The whole card.
     pub rect: Rect,
 }
@@ -55,6 +59,11 @@ impl<'a> Card<'a> {
         self
     }
 
+    /// Adds the button that offers to save what the card shows.
+    pub fn exports(self) -> Self {
+        self.button(Icon::Download, "Export")
+    }
+
     /// A fixed height in points instead of all that is available.
     pub fn height(mut self, height: f32) -> Self {
         self.height = Some(height);
@@ -69,10 +78,11 @@ impl<'a> Card<'a> {
 
     /// Draws the card; the contents get the rectangle under the title.
     pub fn show<R>(self, ui: &mut Ui, add_contents: impl FnOnce(&mut Ui) -> R) -> CardResponse<R> {
+        recorder::card(ui.ctx(), self.title);
         let (rect, background, mut child) = self.begin(ui);
         let inner = add_contents(&mut child);
-        let (pressed, rect) = self.end(ui, &child, rect, background);
-        CardResponse { inner, pressed, rect }
+        let (pressed, export, rect) = self.end(ui, &child, rect, background);
+        CardResponse { inner, pressed, export, rect }
     }
 
     /// Reserves the card's place: its rectangle, its background to be drawn, and where its contents go.
@@ -101,7 +111,7 @@ impl<'a> Card<'a> {
         child: &Ui,
         mut rect: Rect,
         background: egui::layers::ShapeIdx,
-    ) -> (Option<Icon>, Rect) {
+    ) -> (Option<Icon>, Option<Format>, Rect) {
         if self.hugging {
             rect.max.y = child.min_rect().bottom() + MARGIN;
         }
@@ -116,12 +126,12 @@ impl<'a> Card<'a> {
             egui::StrokeKind::Inside,
         );
         ui.painter().set(background, shape);
-        let pressed = if self.title.is_empty() { None } else { self.title_row(ui, rect) };
+        let (pressed, export) = if self.title.is_empty() { (None, None) } else { self.title_row(ui, rect) };
         ui.allocate_rect(rect, Sense::hover());
-        (pressed, rect)
+        (pressed, export, rect)
     }
 
-    fn title_row(&self, ui: &Ui, rect: Rect) -> Option<Icon> {
+    fn title_row(&self, ui: &Ui, rect: Rect) -> (Option<Icon>, Option<Format>) {
         let tokens = theme::tokens(ui);
         let middle = rect.top() + 0.5 * TITLE_ROW + 1.0;
         let at = pos2(rect.left() + MARGIN, middle);
@@ -133,7 +143,7 @@ impl<'a> Card<'a> {
             tokens.text_strong,
         );
         let mut right = rect.right() - 5.0;
-        let mut pressed = None;
+        let (mut pressed, mut export) = (None, None);
         for (index, (icon, label)) in self.buttons.iter().enumerate().rev() {
             let place = Rect::from_center_size(
                 pos2(right - 0.5 * BUTTON_SIDE, middle),
@@ -142,7 +152,15 @@ impl<'a> Card<'a> {
             let id = ui.make_persistent_id((self.title, "card button", index));
             let response: Response = ui.interact(place, id, Sense::click());
             icon::paint_button(ui, place, &response, *icon, &format!("{label}: {}", self.title));
-            if response.clicked() {
+            if *icon == Icon::Download {
+                Popup::menu(&response).show(|ui| {
+                    for (format, name) in Format::ALL {
+                        if ui.button(name).clicked() {
+                            export = Some(format);
+                        }
+                    }
+                });
+            } else if response.clicked() {
                 pressed = Some(*icon);
             }
             response.on_hover_text(*label);
@@ -154,7 +172,7 @@ impl<'a> Card<'a> {
         if left > title.right() + 14.0 {
             ui.painter().galley(pos2(left, middle - 0.5 * hint.size().y), hint, tokens.text_weak);
         }
-        pressed
+        (pressed, export)
     }
 }
 
@@ -179,6 +197,26 @@ mod tests {
         let button = harness.find(egui::Role::Button, "Enlarge: Phase portrait").bounds.center();
         harness.click(button, &mut draw);
         assert_eq!(pressed, Some(Icon::Enlarge));
+    }
+
+    #[test]
+    fn the_menu_of_a_card_says_what_to_save_it_as_also_where_it_is_narrow() {
+        let mut harness = Harness::new(340.0, 300.0);
+        let mut export = None;
+        let mut draw = |ui: &mut Ui| {
+            let card = Card::new("Stability near ω₁+ω₂").hint("drag or click to move").exports();
+            let shown = card.button(Icon::Enlarge, "Enlarge").show(ui, |ui| ui.label("a plot"));
+            export = export.or(shown.export);
+        };
+        harness.settle(&mut draw);
+        let button = harness.find(egui::Role::Button, "Export: Stability").bounds;
+        let beside = harness.find(egui::Role::Button, "Enlarge: Stability").bounds;
+        assert!(button.right() <= beside.left() && button.left() > 200.0, "{button:?} {beside:?}");
+        harness.click(button.center(), &mut draw);
+        harness.settle(&mut draw);
+        let choice = harness.find(egui::Role::Button, "CSV").bounds.center();
+        harness.click(choice, &mut draw);
+        assert_eq!(export, Some(Format::Csv));
     }
 
     #[test]

@@ -2,8 +2,10 @@
 
 use egui::{Color32, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::recorder;
 use crate::app::fonts;
 use crate::app::theme::{self, Tokens};
+pub use crate::export::Pen;
 
 /// What a curve or a set of points stands for. Each kind has its colour, and a line style that tells it apart
 /// without colour.
@@ -47,21 +49,6 @@ pub enum Series {
     Beyond,
     /// Pinned for comparison: a thin grey line.
     Ghost,
-}
-
-/// How the pen moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Pen {
-    /// A line of this width, points.
-    Line(f32),
-    /// Dashes of this width and length, points.
-    Dashes(f32, f32),
-    /// Dots of this radius and spacing, points.
-    Dots(f32, f32),
-    /// Points of this radius where the data are, points.
-    Points(f32),
-    /// Rings of this radius where the data are, points.
-    Rings(f32),
 }
 
 impl Series {
@@ -115,6 +102,7 @@ impl Series {
 
 /// A sample of the curve and its name.
 pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
+    recorder::name(ui.ctx(), series, label);
     let tokens = theme::tokens(ui);
     let galley =
         ui.painter().layout_no_wrap(label.to_owned(), fonts::regular(theme::size::SMALL), tokens.text_weak);

@@ -40,6 +40,15 @@ pub fn qr_code(ui: &mut Ui, text: &str, side: f32, label: &str) -> Option<Respon
     Some(response)
 }
 
+/// The side of the code of a link, in modules, and its dark modules as column and row; `None` when it is too long.
+pub fn qr_modules(text: &str) -> Option<(usize, Vec<(usize, usize)>)> {
+    let code = QrCode::encode_text(text, QrCodeEcc::Low).ok()?;
+    let side = code.size();
+    let places = (0..side).flat_map(|row| (0..side).map(move |column| (column, row)));
+    let dark = places.filter(|(column, row)| code.get_module(*column, *row));
+    Some((side as usize, dark.map(|(column, row)| (column as usize, row as usize)).collect()))
+}
+
 /// The dark modules, one rectangle a run. A mesh has no smoothed edges, so that neighbours join.
 fn dark_modules(code: &QrCode, corner: egui::Pos2, module: f32) -> Mesh {
     let mut mesh = Mesh::default();

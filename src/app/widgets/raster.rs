@@ -3,6 +3,8 @@
 use egui::{Color32, ColorImage, Id, TextureHandle, TextureOptions, Ui, pos2};
 use egui_plot::{PlotImage, PlotPoint, PlotUi};
 
+use super::recorder;
+
 /// A picture and what it was made from.
 #[derive(Clone)]
 struct Kept {
@@ -19,7 +21,9 @@ pub fn raster(
     (columns, rows): (usize, usize),
     paint: impl Fn(usize, usize) -> Option<Color32>,
 ) -> Option<TextureHandle> {
-    let kept: Option<Kept> = ui.data(|data| data.get_temp(id));
+    let recording = recorder::is_on(ui.ctx());
+    // What is kept belongs to the page, and may be in the colours of another theme.
+    let kept: Option<Kept> = if recording { None } else { ui.data(|data| data.get_temp(id)) };
     if let Some(kept) = kept.as_ref().filter(|kept| kept.revision == revision) {
         return Some(kept.texture.clone());
     }
@@ -35,6 +39,7 @@ pub fn raster(
     if empty && kept.is_some() {
         return kept.map(|kept| kept.texture);
     }
+    let recorded = recording.then(|| pixels.clone());
     let image = ColorImage::new([columns, rows], pixels);
     let texture = match kept {
         Some(Kept { mut texture, .. }) => {
@@ -43,6 +48,10 @@ pub fn raster(
         }
         None => ui.ctx().load_texture(format!("{id:?}"), image, TextureOptions::NEAREST),
     };
+    if let Some(pixels) = recorded {
+        recorder::picture(ui.ctx(), texture.id(), [columns, rows], &pixels);
+        return Some(texture);
+    }
     ui.data_mut(|data| data.insert_temp(id, Kept { revision, texture: texture.clone() }));
     Some(texture)
 }
@@ -79,6 +88,9 @@ pub fn draw_cells(
     let width = (x.1 - x.0) * columns as f64 / (columns as f64 - 1.0).max(1.0);
     let height = (y.1 - y.0) * rows as f64 / (rows as f64 - 1.0).max(1.0);
     let middle = PlotPoint::new(0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1));
+    let across = (middle.x - 0.5 * width, middle.x + 0.5 * width);
+    let up = (middle.y - 0.5 * height, middle.y + 0.5 * height);
+    recorder::draw_picture(plot, picture.id(), [across, up], opacity);
     let image = PlotImage::new("", picture.id(), middle, [width as f32, height as f32])
         .uv(egui::Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0)))
         .tint(Color32::WHITE.gamma_multiply(opacity));

@@ -2,7 +2,9 @@
 
 use egui::{Color32, Mesh, Response, Sense, Shape, Ui, WidgetInfo, pos2, vec2};
 
+use super::recorder;
 use crate::app::{fonts, theme};
+use crate::export::figure::Key;
 
 const SIDE: f32 = 12.0;
 
@@ -11,6 +13,7 @@ pub fn swatches(ui: &mut Ui, entries: &[(Color32, &str)]) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(12.0, 0.0);
         for (colour, meaning) in entries {
+            recorder::key(ui.ctx(), &mut || Key::Swatch(recorder::rgba(*colour), (*meaning).to_owned()));
             swatch(ui, *colour, meaning);
         }
     });
@@ -37,6 +40,10 @@ pub fn colour_bar(ui: &mut Ui, low: &str, high: &str, colour: impl Fn(f64) -> Co
     const WIDTH: f32 = 110.0;
     const PARTS: u32 = 24;
     let tokens = theme::tokens(ui);
+    recorder::key(ui.ctx(), &mut || {
+        let colours = (0..=PARTS).map(|part| recorder::rgba(colour(f64::from(part) / f64::from(PARTS))));
+        Key::Scale(colours.collect(), low.to_owned(), high.to_owned())
+    });
     ui.spacing_mut().item_spacing.x = 6.0;
     let text = |text: &str| egui::RichText::new(text).small().color(tokens.text_weak);
     ui.label(text(low));
@@ -60,6 +67,7 @@ pub fn colour_bar(ui: &mut Ui, low: &str, high: &str, colour: impl Fn(f64) -> Co
 
 /// A row that can be clicked: a coloured square, a name, and a quiet number at the right.
 pub fn attractor_row(ui: &mut Ui, colour: Color32, name: &str, number: &str) -> Response {
+    recorder::key(ui.ctx(), &mut || Key::Swatch(recorder::rgba(colour), format!("{name} ({number})")));
     let tokens = theme::tokens(ui);
     let size = vec2(ui.available_width(), 24.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());

@@ -1,7 +1,7 @@
 //! Where enough power is delivered: bands of the curves over frequency, and the least power that counts.
 
 use egui::{Grid, RichText, Ui};
-use egui_plot::{HLine, PlotUi};
+use egui_plot::PlotUi;
 
 use super::harvest::{Measure, linear_points};
 use crate::app::bench::questions;
@@ -9,7 +9,8 @@ use crate::app::panels::{Context, explore};
 use crate::app::theme;
 use crate::app::view::View;
 use crate::app::widgets::number::{round_significant, significant, with_unit};
-use crate::app::widgets::{Card, ParameterSlider, chips};
+use crate::app::widgets::{Card, ParameterSlider, chips, plot_style};
+use crate::export::Pen;
 use crate::jobs::design::Interval;
 use crate::jobs::design::band::{half_power, total, usable};
 use crate::jobs::study::harvest::HarvestStudy;
@@ -61,10 +62,7 @@ fn least(view: &View, study: &HarvestStudy) -> f64 {
 pub(super) fn least_line(plot: &mut PlotUi<'_>, view: &View, study: &HarvestStudy, measure: &Measure) {
     let at = measure.coordinate(least(view, study));
     let colour = theme::tokens_in(plot.ctx()).ruler;
-    if at.is_finite() {
-        let style = egui_plot::LineStyle::Dotted { spacing: 6.0 };
-        plot.hline(HLine::new("least power that counts", at).color(colour).width(1.4).style(style));
-    }
+    plot_style::rule(plot, false, "least power that counts", at, colour, Pen::Dots(1.4, 6.0));
 }
 
 fn table(context: &mut Context<'_>, ui: &mut Ui) {

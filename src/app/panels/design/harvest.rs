@@ -1,7 +1,7 @@
 //! What the device delivers over frequency: linear, forced, from rest, and by sweeps up and down.
 
 use egui::Ui;
-use egui_plot::{PlotPoint, VLine};
+use egui_plot::PlotPoint;
 
 use super::safety::{Safety, beyond};
 use crate::app::panels::Context;
@@ -11,6 +11,7 @@ use crate::app::view::design::Watched;
 use crate::app::widgets::number::{prefix, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
+use crate::export::Pen;
 use crate::jobs::study::Study as _;
 use crate::jobs::study::harvest::{HarvestPoint, HarvestStudy};
 use crate::jobs::study::sweep::Direction;
@@ -220,7 +221,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
         plot = plot.include_y(0.0);
     }
     let shown = plot.show(ui, |plot| {
-        plot.vline(VLine::new("", here).color(colour).width(1.0).allow_hover(false));
+        plot_style::rule(plot, true, "", here, colour, Pen::Line(1.0));
         for (kind, name, line) in &drawn {
             plot_style::series(plot, *kind, name, line);
         }

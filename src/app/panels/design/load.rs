@@ -1,7 +1,7 @@
 //! Power against the load: over six decades at the frequency in view, and at the best frequency of each load.
 
 use egui::{RichText, Ui};
-use egui_plot::{PlotPoint, VLine};
+use egui_plot::PlotPoint;
 
 use super::safety::{Safety, beyond};
 use crate::app::panels::{Context, explore};
@@ -10,6 +10,7 @@ use crate::app::view::Panel;
 use crate::app::widgets::number::{prefix, round_significant, significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Card, Series, chips, legend};
+use crate::export::Pen;
 use crate::jobs::design::load::{BestFrequency, LoadPoint};
 use crate::jobs::design::{DesignFinding, Plant};
 use crate::jobs::study::Study as _;
@@ -107,9 +108,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
         plot = plot.include_y(0.0).include_y(1.1 * factor * highest);
     }
     let shown = plot.show(ui, |plot| {
-        if own.is_finite() {
-            plot.vline(VLine::new("", x.coordinate(own)).color(colour).width(1.0).allow_hover(false));
-        }
+        plot_style::rule(plot, true, "", x.coordinate(own), colour, Pen::Line(1.0));
         for (kind, name, line) in &drawn {
             plot_style::series(plot, *kind, name, line);
         }

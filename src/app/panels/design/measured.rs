@@ -13,6 +13,7 @@ use crate::app::view::design::Watched;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Card, Icon, Series, chips, legend};
+use crate::export::Pen;
 
 /// Points of the computed curve.
 const POINTS: usize = 3000;
@@ -59,8 +60,7 @@ fn over_time(context: &Context<'_>, ui: &mut Ui, file: &File) {
     plot_style::plot(ui, ("measured", file.name.as_str(), 0), &x, &y).show(ui, |plot| {
         plot_style::series(plot, Series::Numeric, "computed", &curve);
         let colour = theme::tokens_in(plot.ctx()).theory;
-        let points = egui_plot::PlotPoints::Borrowed(&file.drawn);
-        plot.line(egui_plot::Line::new("measured", points).color(colour).width(1.2).allow_band(false));
+        plot_style::curve(plot, "measured", colour, Pen::Line(1.2), &file.drawn);
     });
 }
 

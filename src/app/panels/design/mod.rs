@@ -6,7 +6,7 @@ mod limits;
 mod load;
 mod materials;
 pub(super) mod measured;
-pub(super) mod safety;
+pub(in crate::app) mod safety;
 mod search;
 mod summary;
 #[cfg(test)]

@@ -1,12 +1,15 @@
 //! The limits of the device in view: what keeps them, and what they look like in plots.
 
-use egui_plot::{HLine, PlotPoint, PlotUi};
+use egui_plot::{PlotPoint, PlotUi};
 
 use crate::app::bench;
 use crate::app::session::Session;
+use crate::app::theme;
 use crate::app::view::View;
 use crate::app::widgets::number::with_unit;
-use crate::app::{fonts, theme};
+use crate::app::widgets::plot_style;
+use crate::export::Pen;
+use crate::export::figure::Anchor;
 use crate::model::limits::{Check, LimitKind, Standing};
 use crate::model::{Demand, Limits, Units};
 
@@ -78,13 +81,8 @@ impl Safety {
 fn line(plot: &mut PlotUi<'_>, [left, at]: [f64; 2], name: &str) {
     let colour = theme::tokens_in(plot.ctx()).danger;
     if at.is_finite() {
-        plot.hline(HLine::new(name, at).color(colour).width(1.6));
-        let font = fonts::regular(theme::size::SMALL);
-        let text = egui::RichText::new(format!(" {name}")).font(font).color(colour);
-        let text = egui_plot::Text::new("", PlotPoint::new(left, at), text)
-            .color(colour)
-            .anchor(egui::Align2::LEFT_BOTTOM);
-        plot.text(text.allow_hover(false));
+        plot_style::rule(plot, false, name, at, colour, Pen::Line(1.6));
+        plot_style::label(plot, &format!(" {name}"), [left, at], colour, Anchor::Left);
     }
 }
 
@@ -107,7 +105,7 @@ pub(super) fn beyond<T>(
 }
 
 /// A check in words: `tip closes 49 % of the gap`.
-pub(super) fn in_words(check: &Check) -> String {
+pub(in crate::app) fn in_words(check: &Check) -> String {
     let percent = |value: f64| crate::app::widgets::number::significant(100.0 * value, 2);
     match check.kind {
         LimitKind::Voltage => {

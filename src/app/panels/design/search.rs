@@ -10,10 +10,10 @@ use crate::app::panels::{Context, device, explore};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::view::design::{Aim, Side};
-use crate::app::widgets::number::{round_significant, significant, with_unit};
+use crate::app::widgets::number::{self, round_significant, significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{
-    Card, HATCH, ParameterSlider, chips, colour_bar, draw_cells, on_hatching, raster, swatches,
+    Card, HATCH, ParameterSlider, chips, colour_bar, draw_cells, on_hatching, raster, recorder, swatches,
 };
 use crate::jobs::design::find::{Evaluation, Objective};
 use crate::jobs::study::Study as _;
@@ -45,6 +45,17 @@ fn unit(aim: Aim) -> &'static str {
         Aim::Voltage => "V",
         Aim::Band => "Hz",
         Aim::Threshold => "",
+    }
+}
+
+/// What is mapped, with its unit.
+fn mapped(aim: Aim) -> &'static str {
+    match aim {
+        Aim::Power => "power in the load [W]",
+        Aim::PerG2 => "power per g² [W/g²]",
+        Aim::Voltage => "voltage, rms [V]",
+        Aim::Band => "width of the band [Hz]",
+        Aim::Threshold => "lowest excitation β of the resonance",
     }
 }
 
@@ -135,6 +146,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
             plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
             if let Some(picture) = &picture {
                 draw_cells(plot, picture, HATCH, x, y, if map.version() == 0 { 0.4 } else { 1.0 });
+                let value = |column, row| map.cell((column, row))?.value.map(number::exact);
+                recorder::cells(plot, mapped(search.aim), map.size(), [x, y], &value);
             }
             if let Some((at, evaluation)) = best {
                 let values = map.values(at);

@@ -1,24 +1,93 @@
 //! Curves, points, bands and texts in the app's colours.
 
-use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, PlotUi, Points, Polygon, Text};
+use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, PlotUi, Points, Polygon, Text, VLine};
 
 use super::super::legend::{Pen, Series};
+use super::super::recorder;
 use crate::app::{fonts, theme};
+use crate::export::Layer;
+use crate::export::figure::Anchor;
 
 /// A curve in the style of its kind. Points that are not finite leave gaps. The name shows at the pointer.
 pub fn series<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [PlotPoint]) {
     let colour = kind.colour(theme::tokens_in(plot.ctx()));
-    let (width, style) = match kind.pen() {
-        Pen::Line(width) => (width, LineStyle::Solid),
-        Pen::Dashes(width, length) => (width, LineStyle::Dashed { length }),
-        Pen::Dots(radius, spacing) => (radius, LineStyle::Dotted { spacing }),
-        Pen::Points(_) | Pen::Rings(_) => return points(plot, kind, name, curve),
-    };
+    let pen = kind.pen();
+    if let Pen::Points(_) | Pen::Rings(_) = pen {
+        return points(plot, kind, name, curve);
+    }
+    record(plot, name, Some(kind), colour, pen, curve);
+    draw(plot, name, colour, pen, kind != Series::Ghost, curve);
+}
+
+/// A curve that belongs to no kind, in a style of its own.
+pub fn curve<'a>(plot: &mut PlotUi<'a>, name: &str, colour: egui::Color32, pen: Pen, curve: &'a [PlotPoint]) {
+    record(plot, name, None, colour, pen, curve);
+    draw(plot, name, colour, pen, true, curve);
+}
+
+fn draw<'a>(
+    plot: &mut PlotUi<'a>,
+    name: &str,
+    colour: egui::Color32,
+    pen: Pen,
+    hovers: bool,
+    curve: &'a [PlotPoint],
+) {
+    let (width, style) = style(pen);
     for run in finite_runs(curve) {
         let line = Line::new(name, PlotPoints::Borrowed(run)).color(colour).width(width).style(style);
         // The bands that egui_plot makes of dense lines overshoot steep peaks.
         let line = line.allow_band(false);
-        plot.line(line.allow_hover(kind != Series::Ghost));
+        plot.line(line.allow_hover(hovers));
+    }
+}
+
+fn style(pen: Pen) -> (f32, LineStyle) {
+    match pen {
+        Pen::Dashes(width, length) => (width, LineStyle::Dashed { length }),
+        Pen::Dots(radius, spacing) => (radius, LineStyle::Dotted { spacing }),
+        Pen::Line(width) | Pen::Points(width) | Pen::Rings(width) => (width, LineStyle::Solid),
+    }
+}
+
+/// Notes a curve for files.
+fn record(
+    plot: &PlotUi<'_>,
+    name: &str,
+    kind: Option<Series>,
+    colour: egui::Color32,
+    pen: Pen,
+    curve: &[PlotPoint],
+) {
+    if curve.is_empty() || !recorder::is_on(plot.ctx()) {
+        return;
+    }
+    let key = kind.map_or(name.to_owned(), |kind| recorder::legend_name(plot.ctx(), kind, name));
+    recorder::draw(plot, &mut || Layer::Curve {
+        name: name.to_owned(),
+        key: key.clone(),
+        colour: recorder::rgba(colour),
+        pen,
+        points: curve.iter().map(|point| [point.x, point.y]).collect(),
+    });
+}
+
+/// A line across the whole plot, upright or level, where `at` is. Its name shows at the pointer; one without a name is
+/// a mere help to the eye.
+pub fn rule(plot: &mut PlotUi<'_>, upright: bool, name: &str, at: f64, colour: egui::Color32, pen: Pen) {
+    if !at.is_finite() {
+        return;
+    }
+    recorder::draw(plot, &mut || {
+        let (name, colour) = (name.to_owned(), recorder::rgba(colour));
+        Layer::Rule { name, colour, pen, upright, at }
+    });
+    let (width, style) = style(pen);
+    let hovers = !name.is_empty();
+    if upright {
+        plot.vline(VLine::new(name, at).color(colour).width(width).style(style).allow_hover(hovers));
+    } else {
+        plot.hline(HLine::new(name, at).color(colour).width(width).style(style).allow_hover(hovers));
     }
 }
 
@@ -35,9 +104,12 @@ pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [
         (_, 41..=400) => (2.6, 0.9),
         _ => (1.5, 0.75),
     };
+    let filled = !matches!(kind.pen(), Pen::Rings(_));
+    let pen = if filled { Pen::Points(radius) } else { Pen::Rings(radius) };
+    record(plot, name, Some(kind), colour.gamma_multiply(opacity), pen, places);
     for run in finite_runs(places) {
         let dots = Points::new(name, PlotPoints::Borrowed(run)).color(colour.gamma_multiply(opacity));
-        let dots = dots.filled(!matches!(kind.pen(), Pen::Rings(_)));
+        let dots = dots.filled(filled);
         plot.points(dots.radius(radius).allow_hover(kind != Series::Ghost));
     }
 }
@@ -55,6 +127,14 @@ pub fn envelope(plot: &mut PlotUi<'_>, kind: Series, name: &str, xs: &[f64], low
         return;
     }
     let fill = colour.gamma_multiply(if kind == Series::Ghost { 0.22 } else { 0.5 });
+    let key = recorder::legend_name(plot.ctx(), kind, name);
+    recorder::draw(plot, &mut || Layer::Band {
+        name: name.to_owned(),
+        key: key.clone(),
+        fill: recorder::rgba(fill),
+        edge: recorder::rgba(colour),
+        points: (0..xs.len()).map(|i| [xs[i], low[i], high[i]]).collect(),
+    });
     plot.add(egui_plot::FilledArea::new(name, &xs, &low, &high).fill_color(fill).allow_hover(false));
     for edge in [&low, &high] {
         let curve: PlotPoints<'_> = xs.iter().zip(edge).map(|(x, y)| [*x, *y]).collect();
@@ -71,6 +151,13 @@ pub fn area_above(plot: &mut PlotUi<'_>, kind: Series, curve: &[PlotPoint], top:
         let xs: Vec<f64> = run.iter().map(|point| point.x).collect();
         let lows: Vec<f64> = run.iter().map(|point| point.y.min(top)).collect();
         let tops = vec![top; run.len()];
+        recorder::draw(plot, &mut || Layer::Band {
+            name: String::new(),
+            key: String::new(),
+            fill: recorder::rgba(tint),
+            edge: [0; 4],
+            points: run.iter().map(|point| [point.x, point.y.min(top), top]).collect(),
+        });
         plot.add(egui_plot::FilledArea::new("", &xs, &lows, &tops).fill_color(tint).allow_hover(false));
     }
 }
@@ -86,13 +173,25 @@ pub fn cell(plot: &mut PlotUi<'_>, from: [f64; 2], to: [f64; 2], fill: egui::Col
 pub fn labelled_place(plot: &mut PlotUi<'_>, text: &str, place: [f64; 2], kind: Series) {
     let tokens = theme::tokens_in(plot.ctx());
     let colour = if kind == Series::Ghost { tokens.text_weak } else { kind.colour(tokens) };
+    label(plot, text, place, colour, Anchor::Middle);
+}
+
+/// A small text whose middle or left end is at `place`.
+pub fn label(plot: &mut PlotUi<'_>, text: &str, place: [f64; 2], colour: egui::Color32, anchor: Anchor) {
+    recorder::draw(plot, &mut || {
+        let (text, colour) = (text.to_owned(), recorder::rgba(colour));
+        Layer::Text { text, colour, place, anchor }
+    });
     let rich = egui::RichText::new(text).font(fonts::regular(theme::size::SMALL + 0.5)).color(colour);
-    plot.text(Text::new("", place.into(), rich).color(colour).allow_hover(false));
+    let align =
+        if anchor == Anchor::Middle { egui::Align2::CENTER_CENTER } else { egui::Align2::LEFT_BOTTOM };
+    plot.text(Text::new("", place.into(), rich).color(colour).anchor(align).allow_hover(false));
 }
 
 /// A place of its own, with its name beside it.
 pub fn special_point(plot: &mut PlotUi<'_>, name: &str, place: PlotPoint) {
     let tokens = theme::tokens_in(plot.ctx());
+    recorder::draw(plot, &mut || Layer::Special { name: name.to_owned(), place: [place.x, place.y] });
     let mark = Points::new(name, vec![[place.x, place.y]]).radius(5.0).color(tokens.text_strong);
     plot.points(mark.shape(egui_plot::MarkerShape::Diamond));
     let rich = egui::RichText::new(format!("  {name}")).font(fonts::regular(theme::size::SMALL + 0.5));

@@ -3,7 +3,9 @@
 use egui::{Align2, EventFilter, Id, Key, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use egui_plot::{PlotPoint, PlotResponse};
 
+use super::super::recorder;
 use crate::app::{fonts, theme};
+use crate::export::Layer;
 
 /// Radius of the marker and of the area that grabs it, points.
 const RADIUS: f32 = 8.0;
@@ -23,6 +25,7 @@ pub struct PointDrag {
 /// Draws ⊕ at `position` over a plot that was just shown, and lets it be dragged or moved with the arrow keys
 /// (Shift for small steps). A click anywhere in the plot brings it there. `name` is for screen readers.
 pub fn operating_point<R>(ui: &Ui, plot: &PlotResponse<R>, name: &str, position: [f64; 2]) -> PointDrag {
+    recorder::over(ui.ctx(), &mut || Layer::Here { name: name.to_owned(), place: position });
     let transform = &plot.transform;
     let frame = *transform.frame();
     let centre = transform.position_from_point(&PlotPoint::new(position[0], position[1]));

@@ -2,17 +2,21 @@
 //!
 //! egui_plot has no logarithmic axes: give [`Axis::logarithmic`] and pass `log10` of the data, see [`to_log`].
 
-mod axis;
 mod items;
 mod marker;
 
-use egui_plot::{AxisHints, HoverPosition, Plot, PlotPoint};
+use std::ops::RangeInclusive;
 
-use super::number;
+use egui_plot::{AxisHints, GridInput, GridMark, HoverPosition, Plot, PlotPoint};
+
+use super::{number, recorder};
 use crate::app::{fonts, theme};
 
-pub use axis::{Axis, from_log, to_log};
-pub use items::{area_above, cell, envelope, finite_runs, labelled_place, points, series, special_point};
+pub use crate::export::axis::{Axis, Tick, from_log, to_log};
+pub use items::{
+    area_above, cell, curve, envelope, finite_runs, label, labelled_place, points, rule, series,
+    special_point,
+};
 pub use marker::{PointDrag, no_data, operating_point};
 
 /// A plot with the app's look: transparent on its card, round ticks, axis names with units, values under the
@@ -27,6 +31,7 @@ pub use marker::{PointDrag, no_data, operating_point};
 /// # }
 /// ```
 pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> Plot<'a> {
+    recorder::begin(ui.ctx(), x, y);
     let tokens = theme::tokens(ui);
     let label = |axis: &Axis| {
         let font = fonts::regular(theme::size::SMALL + 0.5);
@@ -39,7 +44,7 @@ pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> P
             .tick_label_font(fonts::regular(theme::size::SMALL))
             .tick_label_color(tokens.text_weak)
             .label_spacing(egui::Rangef::new(gap, gap + 1.0))
-            .formatter(move |mark, range| formatter.tick(mark, range))
+            .formatter(move |mark, range| tick_label(&formatter, mark, range))
     };
     let (x_spacer, y_spacer) = (x.clone(), y.clone());
     let (x_readout, y_readout) = (x.clone(), y.clone());
@@ -48,8 +53,8 @@ pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> P
         .sense(egui::Sense::CLICK | egui::Sense::DRAG)
         .custom_x_axes(vec![hints(AxisHints::new_x(), x, 26.0)])
         .custom_y_axes(vec![hints(AxisHints::new_y(), y, 13.0).min_thickness(24.0)])
-        .x_grid_spacer(move |input| x_spacer.marks(&input, 54.0))
-        .y_grid_spacer(move |input| y_spacer.marks(&input, 38.0))
+        .x_grid_spacer(move |input| grid(&x_spacer, &input, 54.0))
+        .y_grid_spacer(move |input| grid(&y_spacer, &input, 38.0))
         .grid_spacing(egui::Rangef::new(1.0, 30.0))
         .grid_color(tokens.grid)
         .cursor_color(tokens.ruler)
@@ -65,6 +70,23 @@ pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> P
             }
             HoverPosition::Elsewhere { .. } => None,
         })
+}
+
+/// Grid lines about `wanted` points apart; `input.base_step_size` is one point's length.
+fn grid(axis: &Axis, input: &GridInput, wanted: f64) -> Vec<GridMark> {
+    let length = (input.bounds.1 - input.bounds.0) / input.base_step_size;
+    let ticks = axis.ticks(input.bounds, length, wanted).into_iter();
+    ticks.map(|tick| GridMark { value: tick.at, step_size: tick.step }).collect()
+}
+
+/// The label of a tick; none where it would stick out of the plot into the other axis's labels.
+fn tick_label(axis: &Axis, mark: GridMark, range: &RangeInclusive<f64>) -> String {
+    let place = (mark.value - range.start()) / (range.end() - range.start());
+    if (0.025..=0.985).contains(&place) {
+        axis.label(Tick { at: mark.value, step: mark.step_size })
+    } else {
+        String::new()
+    }
 }
 
 /// `v = 12.3 V, dv/dt = −45` for a place in plot coordinates.

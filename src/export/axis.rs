@@ -1,12 +1,17 @@
 //! What an axis measures, where its ticks stand and what they say.
 
-use std::ops::RangeInclusive;
+use super::number;
 
-use egui_plot::{GridInput, GridMark};
+/// A tick of an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tick {
+    /// Where, as a coordinate of the axis.
+    pub at: f64,
+    /// Distance to the next of its kind, in coordinates.
+    pub step: f64,
+}
 
-use super::super::number;
-
-/// An axis: name, symbol, unit, scale.
+/// An axis: name, symbol, unit, scale. Its coordinates are the values, or their `log10` when it is logarithmic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     name: String,
@@ -33,6 +38,11 @@ impl Axis {
         self
     }
 
+    /// Whether coordinates are logarithms.
+    pub fn is_logarithmic(&self) -> bool {
+        self.logarithmic
+    }
+
     /// The title: `voltage v  [V]`.
     pub fn title(&self) -> String {
         let mut parts = vec![self.name.as_str(), self.symbol.as_str()];
@@ -49,11 +59,13 @@ impl Axis {
         if self.symbol.is_empty() { &self.name } else { &self.symbol }
     }
 
-    pub(super) fn has_unit(&self) -> bool {
+    /// Whether values have a unit.
+    pub fn has_unit(&self) -> bool {
         !self.unit.is_empty()
     }
 
-    pub(super) fn unit_text(&self) -> &str {
+    /// The unit; empty when there is none.
+    pub fn unit_text(&self) -> &str {
         &self.unit
     }
 
@@ -67,14 +79,14 @@ impl Axis {
         if self.logarithmic { to_log(value) } else { value }
     }
 
-    /// Grid lines about `wanted` points apart, closer on small plots; `input.base_step_size` is one point's length.
-    pub(super) fn marks(&self, input: &GridInput, wanted: f64) -> Vec<GridMark> {
-        let (low, high) = input.bounds;
-        let per_point = input.base_step_size;
-        if !(low.is_finite() && high.is_finite() && per_point > 0.0 && high > low) {
+    /// Ticks of an axis that shows the coordinates from `low` to `high` over a `length`, about `wanted` apart, closer on
+    /// small plots; both in points or in any other unit.
+    pub fn ticks(&self, (low, high): (f64, f64), length: f64, wanted: f64) -> Vec<Tick> {
+        if !(low.is_finite() && high.is_finite() && length > 0.0 && high > low) {
             return Vec::new();
         }
-        let wanted = wanted.min(0.25 * (high - low) / per_point).max(0.6 * wanted);
+        let per_point = (high - low) / length;
+        let wanted = wanted.min(0.25 * length).max(0.6 * wanted);
         let decade = 1.0 / per_point;
         if self.logarithmic && decade < 3.5 * wanted {
             return decades(low, high, wanted * per_point, decade >= 24.0);
@@ -86,28 +98,23 @@ impl Axis {
         let count = ((high - low) / step).ceil().min(200.0) as i64;
         let first = (low / step).ceil();
         (0..=count)
-            .map(|index| GridMark { value: (first + index as f64) * step, step_size: step })
-            .filter(|mark| mark.value <= high)
+            .map(|index| Tick { at: (first + index as f64) * step, step })
+            .filter(|tick| tick.at <= high)
             .collect()
     }
 
-    /// The label of a tick; none where it would stick out of the plot into the other axis's labels.
-    pub(super) fn tick(&self, mark: GridMark, range: &RangeInclusive<f64>) -> String {
-        let (low, high) = (*range.start(), *range.end());
-        let place = (mark.value - low) / (high - low);
-        if !(0.025..=0.985).contains(&place) {
-            return String::new();
-        }
+    /// The label of a tick; empty where lines have none.
+    pub fn label(&self, tick: Tick) -> String {
         if !self.logarithmic {
-            return number::tick(mark.value, mark.step_size);
+            return number::tick(tick.at, tick.step);
         }
-        let exponent = mark.value.round();
-        if (mark.value - exponent).abs() < 1e-9 && mark.step_size >= 1.0 {
+        let exponent = tick.at.round();
+        if (tick.at - exponent).abs() < 1e-9 && tick.step >= 1.0 {
             number::power_of_ten(exponent as i32)
-        } else if mark.step_size < MINOR {
+        } else if tick.step < MINOR {
             String::new()
         } else {
-            number::typographic(&number::round_significant(from_log(mark.value), 3).to_string())
+            number::typographic(&number::round_significant(from_log(tick.at), 3).to_string())
         }
     }
 }
@@ -116,36 +123,36 @@ impl Axis {
 const MINOR: f64 = 0.05;
 
 /// Lines at the powers of ten, and faint ones between them when there is room.
-fn decades(low: f64, high: f64, wanted: f64, fine: bool) -> Vec<GridMark> {
+fn decades(low: f64, high: f64, wanted: f64, fine: bool) -> Vec<Tick> {
     let stride = wanted.ceil().max(1.0) as i64;
     let mut marks = Vec::new();
     for exponent in (low.floor() as i64)..=(high.ceil() as i64) {
         if exponent.rem_euclid(stride) == 0 {
-            marks.push(GridMark { value: exponent as f64, step_size: stride as f64 });
+            marks.push(Tick { at: exponent as f64, step: stride as f64 });
         }
         if fine && stride == 1 {
             let between = (2..10).map(|digit| exponent as f64 + f64::from(digit).log10());
-            marks.extend(between.map(|value| GridMark { value, step_size: 0.9 * MINOR }));
+            marks.extend(between.map(|value| Tick { at: value, step: 0.9 * MINOR }));
         }
     }
-    marks.retain(|mark| (low..=high).contains(&mark.value));
+    marks.retain(|tick| (low..=high).contains(&tick.at));
     marks
 }
 
 /// Lines at round values of an axis that shows about a decade or less.
-fn within_decades(low: f64, high: f64, wanted: f64) -> Vec<GridMark> {
-    let mut marks: Vec<GridMark> = Vec::new();
+fn within_decades(low: f64, high: f64, wanted: f64) -> Vec<Tick> {
+    let mut marks: Vec<Tick> = Vec::new();
     let mut value = from_log(low);
     let (end, mut guard) = (from_log(high), 0);
     while value <= end && guard < 200 {
         // Aim one spacing ahead and take the next round number there.
         let step = round_step(value * (10_f64.powf(wanted) - 1.0));
         let next = (value / step).floor() * step + step;
-        marks.push(GridMark { value: to_log(next), step_size: wanted.max(MINOR) });
+        marks.push(Tick { at: to_log(next), step: wanted.max(MINOR) });
         value = next;
         guard += 1;
     }
-    marks.retain(|mark| mark.value <= high);
+    marks.retain(|tick| tick.at <= high);
     marks
 }
 
@@ -173,9 +180,9 @@ mod tests {
     use super::*;
 
     fn labels(axis: &Axis, low: f64, high: f64, points: f64, wanted: f64) -> Vec<String> {
-        let input = GridInput { bounds: (low, high), base_step_size: (high - low) / points };
-        let ticks = axis.marks(&input, wanted).into_iter().map(|mark| axis.tick(mark, &(low..=high)));
-        ticks.filter(|text| !text.is_empty()).collect()
+        let inside = |tick: &Tick| (0.025..=0.985).contains(&((tick.at - low) / (high - low)));
+        let ticks = axis.ticks((low, high), points, wanted).into_iter().filter(inside);
+        ticks.map(|tick| axis.label(tick)).filter(|text| !text.is_empty()).collect()
     }
 
     #[test]
