@@ -54,7 +54,8 @@ fn a_plot_is_saved_as_drawing_picture_and_table_and_all_of_it_as_a_report() {
         assert!(table.contains(part), "{part}");
     }
     // What lies behind a coloured chart is a table, too.
-    press(&mut page, "Stability");
+    let tab = page.find("Stability", &["Tab"]);
+    page.click(tab.at(0.5, 0.5));
     page.wait_until("the charts", |state| state["progress"] == serde_json::json!([]));
     let chart =
         saved(&mut page, &folder, ["Export: Stability chart", "PNG"], "harvester-stability-chart.png");
