@@ -1,6 +1,6 @@
 //! Plots and the report as files, as a user saves them.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::{env, fs};
 
 use super::page::{Page, Theme, project};
@@ -13,7 +13,7 @@ fn press(page: &mut Page, label: &str) {
 }
 
 /// Saves by pressing both buttons, and waits for the file.
-fn saved(page: &mut Page, folder: &PathBuf, [menu, button]: [&str; 2], name: &str) -> Vec<u8> {
+fn saved(page: &mut Page, folder: &Path, [menu, button]: [&str; 2], name: &str) -> Vec<u8> {
     press(page, menu);
     press(page, button);
     let file = folder.join(name);
