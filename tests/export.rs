@@ -59,7 +59,7 @@ fn provenance() -> Provenance {
     let mut scenario = Scenario::default();
     scenario.parameters.beta = 0.1 + 0.2 - 0.25;
     let link = "https://example.org/#v=1".to_owned();
-    Provenance { scenario, steps: Some(7), unfinished: Vec::new(), link }
+    Provenance { scenario, steps: Some(7), notes: Vec::new(), link }
 }
 
 /// The numbers of a path, pair by pair, from its moves and lines; one list a move.

@@ -128,10 +128,30 @@ impl App {
     /// What the plots of `view` are computed from.
     fn provenance(&self, view: &View) -> Provenance {
         let shown = self.session.shown.as_ref().filter(|shown| shown.scenario == view.scenario);
+        let mut notes = Vec::new();
+        if view.tab == Tab::Sweep {
+            let (from, to) = questions::sweep_range(view, &self.session);
+            let sweep = &view.sweep;
+            notes.push((
+                "sweep",
+                format!(
+                    "{} from {} to {}, {} values, {} periods dropped and {} kept at each",
+                    sweep.parameter.field(),
+                    exact(from),
+                    exact(to),
+                    sweep.count,
+                    sweep.dwell.discarded,
+                    sweep.dwell.kept
+                ),
+            ));
+        }
+        for (name, part) in self.crew.borrow_mut().studies.progress() {
+            notes.push(("still being computed", format!("{name}, {:.0} % done", 100.0 * part)));
+        }
         Provenance {
             scenario: view.scenario.clone(),
             steps: shown.map(|shown| shown.run.trajectory.len()),
-            unfinished: self.crew.borrow_mut().studies.progress(),
+            notes,
             link: format!("{}#{}", self.address, self.fragment()),
         }
     }
@@ -365,6 +385,7 @@ mod tests {
                 let (name, table) = saved(&mut app, &context, title, Format::Csv);
                 keep(&format!("{number}-{name}"), &table);
                 assert!(table.starts_with(&format!("# plot: {title}\n# program: Harvester Lab ")), "{table}");
+                assert_eq!(table.contains("# sweep: omega from "), view.tab == Tab::Sweep);
                 assert!(table.lines().filter(|line| !line.starts_with('#')).count() > 5, "{title}");
                 let (picture, again) = saved(&mut app, &context, title, Format::Png);
                 assert!(picture.ends_with(".png") && again == text, "{picture}");

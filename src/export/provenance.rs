@@ -12,8 +12,8 @@ pub struct Provenance {
     pub scenario: Scenario,
     /// Steps that the run took, when it is done.
     pub steps: Option<usize>,
-    /// What was still being computed, and the part of it that was done, 0 to 1.
-    pub unfinished: Vec<(&'static str, f64)>,
+    /// What else to know, by name: how a sweep was carried out, what was still being computed.
+    pub notes: Vec<(&'static str, String)>,
     /// The address that shows it again.
     pub link: String,
 }
@@ -36,9 +36,7 @@ impl Provenance {
         lines.push(("run".to_owned(), self.run()));
         lines.push(("solver".to_owned(), self.solver()));
         lines.extend(self.device().into_iter().map(|(name, value)| (format!("device.{name}"), value)));
-        for (name, part) in &self.unfinished {
-            lines.push(("still being computed".to_owned(), format!("{name}, {:.0} % done", 100.0 * part)));
-        }
+        lines.extend(self.notes.iter().map(|(name, value)| ((*name).to_owned(), value.clone())));
         lines.push(("link".to_owned(), self.link.clone()));
         lines
     }
@@ -112,7 +110,8 @@ impl Provenance {
                 format!("{symbol} = {value}")
             })
             .collect();
-        let text = format!("{}; {}; {}. {PROGRAM}", numbers.join(", "), self.model(), self.run());
+        let notes: String = self.notes.iter().map(|(name, value)| format!("; {name}: {value}")).collect();
+        let text = format!("{}; {}; {}{notes}. {PROGRAM}", numbers.join(", "), self.model(), self.run());
         // Lines break between statements only.
         text.replace(" = ", "\u{a0}=\u{a0}").replacen(" mode", "\u{a0}mode", 1)
     }
@@ -146,7 +145,7 @@ mod tests {
         let source = Provenance {
             scenario,
             steps: Some(1234),
-            unfinished: Vec::new(),
+            notes: vec![("sweep", "up".to_owned())],
             link: "https://example.org/#v=1".to_owned(),
         };
         let lines = source.lines();
@@ -156,6 +155,8 @@ mod tests {
         assert_eq!(value("model"), "2 modes, quadratic magnet force");
         assert_eq!(value("run"), "from (0 0.1 0 0 -2.5) as q_1..q_N, their rates, v until t = 600");
         assert!(value("solver").ends_with("8 nodes, adaptive steps, tolerance 1e-5 of the gap, 1234 steps"));
+        assert_eq!(value("sweep"), "up");
+        assert!(source.caption().ends_with(&format!("; sweep: up. {PROGRAM}")), "{}", source.caption());
         assert_eq!(value("device.beam_length"), "0.48 m");
         assert_eq!(value("link"), "https://example.org/#v=1");
         let caption = source.caption().replace('\u{a0}', " ");

@@ -68,7 +68,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
                 (microwatts(&context.view.scenario) * top, "µW")
             };
             ui.horizontal(|ui| {
-                colour_bar(ui, "0", &format!("{} {unit}", significant(top, 3)), colours::sequential);
+                colour_bar(ui, "0", &format!("{} {unit}", significant(top, 3)), &colours::sequential);
                 swatches(ui, &[(tokens.danger, "hatched: beyond a limit")]);
             });
         }
@@ -135,7 +135,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
         let question = chart.question();
         let revision = revision(chart.version(), context.studies.multipliers.generation());
         let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
-        let texture = raster(ui, Id::unique("multiplier chart"), revision, question.size, paint)?;
+        let texture = raster(ui, Id::unique("multiplier chart"), revision, question.size, &paint)?;
         let known = chart.version() > 0;
         return Some(Picture { texture, side: 1, omega: question.omega, beta: question.beta, known });
     }
@@ -164,7 +164,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
     let limits = safety.as_ref().map_or(0, Safety::fingerprint);
     let revision = revision(chart.version(), context.studies.motions.generation()) ^ limits;
     let (columns, rows) = question.size;
-    let texture = raster(ui, Id::unique("motion chart"), revision, (HATCH * columns, HATCH * rows), paint)?;
+    let texture = raster(ui, Id::unique("motion chart"), revision, (HATCH * columns, HATCH * rows), &paint)?;
     Some(Picture {
         texture,
         side: HATCH,

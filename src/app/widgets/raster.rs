@@ -19,7 +19,7 @@ pub fn raster(
     id: Id,
     revision: u64,
     (columns, rows): (usize, usize),
-    paint: impl Fn(usize, usize) -> Option<Color32>,
+    paint: &dyn Fn(usize, usize) -> Option<Color32>,
 ) -> Option<TextureHandle> {
     let recording = recorder::is_on(ui.ctx());
     // What is kept belongs to the page, and may be in the colours of another theme.
@@ -112,7 +112,7 @@ mod tests {
                 made.set(made.get() + 1);
                 known.then_some(Color32::RED)
             };
-            raster(ui, Id::unique("picture"), revision, (3, 2), paint).map(|texture| texture.size())
+            raster(ui, Id::unique("picture"), revision, (3, 2), &paint).map(|texture| texture.size())
         };
         harness.settle(|ui| {
             made.set(0);

@@ -36,7 +36,7 @@ fn swatch(ui: &mut Ui, colour: Color32, meaning: &str) -> Response {
 }
 
 /// A bar of the colours from 0 to 1 between the texts for both ends.
-pub fn colour_bar(ui: &mut Ui, low: &str, high: &str, colour: impl Fn(f64) -> Color32) {
+pub fn colour_bar(ui: &mut Ui, low: &str, high: &str, colour: &dyn Fn(f64) -> Color32) {
     const WIDTH: f32 = 110.0;
     const PARTS: u32 = 24;
     let tokens = theme::tokens(ui);

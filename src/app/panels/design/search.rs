@@ -85,7 +85,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     });
     ui.horizontal(|ui| {
         let (from, to) = if aim == Aim::Threshold { (high, low) } else { (0.0, high) };
-        colour_bar(ui, &in_digits(from, aim), &in_digits(to, aim), colours::sequential);
+        colour_bar(ui, &in_digits(from, aim), &in_digits(to, aim), &colours::sequential);
     });
     swatches(ui, &[(tokens.danger, "hatched: beyond a limit"), (tokens.track, "no motion, no device")]);
 }
@@ -125,7 +125,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let generation = context.studies.bench.map.generation();
     let revision = map.version() ^ (generation << 32) ^ u64::from(tokens.dark) << 63;
     let (columns, rows) = map.size();
-    let picture = raster(ui, Id::unique("design map"), revision, (HATCH * columns, HATCH * rows), paint);
+    let picture = raster(ui, Id::unique("design map"), revision, (HATCH * columns, HATCH * rows), &paint);
     let variables = &map.question().variables;
     let sides = search.sides.map(|side| side.dimension);
     let factors = sides.map(|dimension| device::words(dimension).3);
