@@ -45,6 +45,8 @@ impl Chromium {
 
         let capabilities = json!({
             "browserName": "chrome",
+            // A walk through a hundred controls takes a while on a busy machine.
+            "timeouts": { "script": 120_000 },
             "goog:loggingPrefs": { "browser": "ALL" },
             "goog:chromeOptions": {
                 "binary": chromium,
