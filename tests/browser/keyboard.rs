@@ -1,5 +1,7 @@
 //! The canvas by keyboard alone.
 
+use serde_json::json;
+
 use crate::page::{Control, ENTER, ESCAPE, Page, SHIFT, TAB, Theme};
 
 const RIGHT: char = '\u{e014}';
@@ -67,13 +69,13 @@ fn tab_goes_round_all_controls_of_every_tab() {
         ['1', '2', '3', '4', '5'].into_iter().zip(["explore", "stability", "sweep", "design", "paper"])
     {
         page.keys(&[], key);
-        // What is found on the Design tab brings buttons with it.
-        page.wait_until("the tab", |state| {
-            state["view"]["tab"] == tab && (tab != "design" || state["progress"] == serde_json::json!([]))
-        });
-        let walk = page.script(WALK);
+        page.wait_until("the tab", |state| state["view"]["tab"] == tab);
+        // What is found meanwhile may bring controls with it, behind the focus: another round reaches them.
+        let mut rounds = (0..3).map(|_| page.script(WALK));
+        let walk = rounds.find(|walk| walk[1] == json!([]));
+        let walk = walk.unwrap_or_else(|| panic!("{tab}: {}", page.script(WALK)));
         println!("{tab}: {} controls by keyboard", walk[0]);
-        assert!(walk[0].as_u64() > Some(25) && walk[1] == serde_json::json!([]), "{tab}: {walk}");
+        assert!(walk[0].as_u64() > Some(25), "{tab}: {walk}");
     }
     page.close();
 }

@@ -45,8 +45,8 @@ impl Chromium {
 
         let capabilities = json!({
             "browserName": "chrome",
-            // A walk through a page by keyboard, on a busy machine.
-            "timeouts": { "script": 180_000 },
+            // A walk through a hundred controls takes a while on a busy machine.
+            "timeouts": { "script": 120_000 },
             "goog:loggingPrefs": { "browser": "ALL" },
             "goog:chromeOptions": {
                 "binary": chromium,
