@@ -135,13 +135,15 @@ impl App {
             notes.push((
                 "sweep",
                 format!(
-                    "{} from {} to {}, {} values, {} periods dropped and {} kept at each",
+                    "{} from {} to {}, {} values, {} periods dropped and {} kept at each, {} times as many dropped \
+                     where it starts from the scenario's start",
                     sweep.parameter.field(),
                     exact(from),
                     exact(to),
                     sweep.count,
                     sweep.dwell.discarded,
-                    sweep.dwell.kept
+                    sweep.dwell.kept,
+                    crate::dynamics::sweep::SETTLING
                 ),
             ));
         }
