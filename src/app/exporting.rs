@@ -33,7 +33,7 @@ const REPORT_ASPECT: f64 = 0.42;
 /// Frames until the plots of a page that was not drawn before have found their bounds.
 const SETTLING: usize = 3;
 /// What is said when there is nothing to save.
-const BUSY: &str = "This is still being computed. Export it when it is there.";
+const BUSY: &str = "There is nothing to save yet: it is still being computed, or this view has no plot here.";
 
 impl App {
     /// Saves the plots of the card with this title.

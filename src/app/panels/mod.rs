@@ -97,7 +97,10 @@ impl<'a> Context<'a> {
     ) {
         let large = self.view.enlarged == Some(panel);
         let (icon, label) = if large { (Icon::Shrink, "Show all plots") } else { (Icon::Enlarge, "Enlarge") };
-        let card = Card::new(title).hint(hint).exports().button(icon, label);
+        let card = Card::new(title).hint(hint);
+        // The evidence is text.
+        let card = if panel == Panel::Evidence { card } else { card.exports() };
+        let card = card.button(icon, label);
         let shown = card.show(ui, |ui| {
             if self.is_stale() {
                 ui.multiply_opacity(0.55);
