@@ -8,6 +8,7 @@ pub mod bridge;
 pub mod fonts;
 pub mod lessons;
 pub mod link;
+pub mod text;
 pub mod theme;
 pub mod view;
 pub mod widgets;
