@@ -8,6 +8,7 @@ use serde_json::Value;
 use self::design::DesignView;
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
+use crate::app::text::{fill, marked};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::study::curves;
 use crate::jobs::study::sweep::COUNTS;
@@ -37,12 +38,12 @@ pub enum Tab {
 impl Tab {
     /// All of them in their order, with their names.
     pub const NAMED: [(Self, &'static str); 6] = [
-        (Self::Explore, "Explore"),
-        (Self::Stability, "Stability"),
-        (Self::Sweep, "Sweep"),
-        (Self::Design, "Design"),
-        (Self::Paper, "Paper"),
-        (Self::Lessons, "Lessons"),
+        (Self::Explore, marked("Explore")),
+        (Self::Stability, marked("Stability")),
+        (Self::Sweep, marked("Sweep")),
+        (Self::Design, marked("Design")),
+        (Self::Paper, marked("Paper")),
+        (Self::Lessons, marked("Lessons")),
     ];
 }
 
@@ -299,8 +300,10 @@ impl View {
         match Self::read(text, &Self::default()) {
             Ok(view) => (view, None),
             Err(reason) => {
-                let message =
-                    format!("The stored state could not be used ({reason}); this is a fresh start.");
+                let message = fill(
+                    "The stored state could not be used ({reason}); this is a fresh start.",
+                    &[("reason", &reason)],
+                );
                 (Self::default(), Some(message))
             }
         }
