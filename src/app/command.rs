@@ -4,6 +4,7 @@ use super::bench::measured::Reading;
 use super::lessons::course::Action;
 use super::view::design::DesignView;
 use super::view::{Layer, MapWindow, Panel, SweepView, Tab};
+use crate::app::text::Language;
 use crate::export::Format;
 use crate::model::Parameter;
 use crate::scenario::Scenario;
@@ -41,6 +42,8 @@ pub(super) enum Command {
     Pin(bool),
     /// Dark or light theme.
     SetDark(bool),
+    /// Another language.
+    Speak(Language),
     /// Large type or normal.
     SetProjector(bool),
     /// Let the beam move, or hold it.

@@ -17,13 +17,14 @@ use super::view::{Panel, Tab, View};
 use super::widgets::number::{exact, round_significant, typographic};
 use super::widgets::{qr_modules, recorder};
 use super::{draw, fonts, questions, theme};
-use crate::app::text::{marked, tr, within};
+use crate::app::text::{fill, language, marked, tr, within};
 use crate::dynamics::Outcome;
-use crate::export::report::{Report, html};
+use crate::export::report::{Report, Words, html};
 use crate::export::{Figure, Format, Provenance, svg, table};
 use crate::jobs::study::Study as _;
 use crate::model::limits::Standing;
-use crate::model::{Demand, Dimension};
+use crate::model::{Demand, Dimension, ForceLaw};
+use crate::scenario::Scenario;
 
 /// Pixels of a picture for each of its drawing.
 const PICTURE_SCALE: u8 = 2;
@@ -104,6 +105,7 @@ impl App {
             plots.push(figures);
         }
         Some(Report {
+            words: self.report_words(),
             headline: reading.headline,
             facts: reading.facts,
             remarks: reading.remarks,
@@ -113,6 +115,30 @@ impl App {
             code: qr_modules(&provenance.link),
             provenance,
         })
+    }
+
+    fn report_words(&self) -> Words {
+        Words {
+            language: language().code(),
+            report: tr("Harvester report"),
+            beyond: tr("Beyond a limit"),
+            within: tr("Within the limits"),
+            device: tr("Device"),
+            dimensionless: tr("Dimensionless"),
+            parameters: [
+                tr("damping"),
+                tr("excitation"),
+                tr("frequency"),
+                tr("magnet strength"),
+                tr("gap"),
+                tr("magnet length"),
+                tr("tip mass"),
+                tr("capacitance, V⁻²"),
+                tr("conductance, V⁻²"),
+                tr("coupling, V⁻¹"),
+            ],
+            model: model_in_words(&self.view.scenario),
+        }
     }
 
     /// The limits that apply to the motion in view, and whether each is kept.
@@ -165,7 +191,7 @@ impl App {
     /// The plots that the page shows of `view`: as they are in `page`, or as they are at first.
     fn figures(&self, view: &View, page: Option<&Egui>) -> Vec<Figure> {
         let hidden = Egui::default();
-        fonts::install(&hidden);
+        fonts::install(&hidden, self.speech.ideographs.as_ref());
         let mut size = vec2(REPORT_PAGE[0], REPORT_PAGE[1]);
         let (mut time, mut frames) = (0.0, SETTLING);
         if let Some(page) = page {
@@ -200,6 +226,19 @@ impl App {
             output.drop_without_applying_deltas();
         }
         recorder::finish(&hidden)
+    }
+}
+
+/// Modes and force law for a report.
+fn model_in_words(scenario: &Scenario) -> String {
+    let law = match scenario.model.force {
+        ForceLaw::Quadratic => tr("quadratic").to_owned(),
+        ForceLaw::Taylor(order) => fill("Taylor (order {order})", &[("order", &order)]),
+        ForceLaw::Exact => tr("exact").to_owned(),
+    };
+    match scenario.model.modes {
+        1 => fill("1 mode, {law} magnet force", &[("law", &law)]),
+        modes => fill("{modes} modes, {law} magnet force", &[("modes", &modes), ("law", &law)]),
     }
 }
 

@@ -33,6 +33,7 @@ mod reading;
 mod report;
 mod session;
 pub mod sharing;
+pub mod speaking;
 mod steps;
 
 use std::cell::RefCell;
@@ -74,12 +75,13 @@ pub struct App {
     exports: Vec<(String, Format)>,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool)>,
+    speech: speaking::Speech,
 }
 
 impl App {
     /// A new application with its `crew`, continuing what an earlier session `stored` when that is valid.
     pub fn new(context: &egui::Context, stored: Option<&str>, crew: Rc<RefCell<Crew>>) -> Self {
-        fonts::install(context);
+        fonts::install(context, None);
         let (view, notice) = View::restore(stored);
         let mut session = Session::default();
         session.ask(&view.scenario);
@@ -98,6 +100,7 @@ impl App {
             errands,
             exports,
             styled: None,
+            speech: speaking::Speech::default(),
         };
         app.style(context);
         app
@@ -152,6 +155,7 @@ impl App {
     /// Draws one frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
+        self.find_words();
         let mut commands = Commands::new();
         let hand = steps::hand(ui.ctx());
         self.history.begin_frame(hand);
@@ -214,6 +218,7 @@ impl App {
                 self.bench.pinned = keep.then(|| crew.studies.bench.pinned(&self.view.scenario));
             }
             Command::SetDark(dark) => self.view.dark = Some(dark),
+            Command::Speak(language) => self.view.language = Some(language),
             Command::SetProjector(large) => self.view.projector = large,
             Command::MoveBeam(moves) => self.view.beam_moves = moves,
             Command::DismissNotice => self.notice = None,

@@ -8,7 +8,7 @@ use serde_json::Value;
 use self::design::DesignView;
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
-use crate::app::text::{fill, marked};
+use crate::app::text::{Language, fill, marked};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::study::curves;
 use crate::jobs::study::sweep::COUNTS;
@@ -182,6 +182,9 @@ pub struct View {
     pub tab: Tab,
     /// Dark or light; the system's choice when absent.
     pub dark: Option<bool>,
+    /// The language of the texts; the browser's choice when absent.
+    #[serde(rename = "lang")]
+    pub language: Option<Language>,
     /// Large type for the lecture room.
     pub projector: bool,
     /// Window of the stability map.
@@ -213,6 +216,7 @@ impl Default for View {
             scenario: figures::figure(9).and_then(Figure::scenario).unwrap_or_default(),
             tab: Tab::Explore,
             dark: None,
+            language: None,
             projector: false,
             map: MapWindow::First,
             figure: 9,
@@ -291,7 +295,13 @@ impl View {
 
     /// The same, looking like `other`: what suits the room and the eyes, and belongs to no scenario.
     pub(super) fn with_looks_of(self, other: &Self) -> Self {
-        Self { dark: other.dark, projector: other.projector, beam_moves: other.beam_moves, ..self }
+        Self {
+            dark: other.dark,
+            language: other.language,
+            projector: other.projector,
+            beam_moves: other.beam_moves,
+            ..self
+        }
     }
 
     /// What an earlier session stored, and a sentence about it when it cannot be used.

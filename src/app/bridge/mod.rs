@@ -106,6 +106,11 @@ fn change(with: impl FnOnce(&mut App, &mut storage::Keeper)) {
     });
 }
 
+/// The context of the running app.
+fn context() -> Option<egui::Context> {
+    RUNNING.with_borrow(|slot| slot.as_ref().map(|running| running.context.clone()))
+}
+
 /// Shows what the address asks for.
 fn open_address() {
     change(|app, keeper| {
@@ -129,7 +134,12 @@ impl Page {
         let keeper = storage::Keeper::open();
         let crew = crew(context.clone());
         let mut app = App::new(context, keeper.stored(), Rc::clone(&crew));
+        app.prefer_language(address::page_language());
+        let asked = address::take_language();
         app.set_address(address::base());
+        if let Some(language) = asked {
+            app.choose_language(language);
+        }
         let app = Rc::new(RefCell::new(app));
         let keeper = Rc::new(RefCell::new(keeper));
         let recorder = Recorder::default();
@@ -161,7 +171,8 @@ impl eframe::App for Page {
         self.app.borrow_mut().ui(ui);
         let errands = self.app.borrow_mut().take_errands();
         errands.iter().for_each(files::run);
-        if !self.shown {
+        // In the language chosen from the first picture on.
+        if !self.shown && !self.app.borrow().awaits_words() {
             self.shown = true;
             shell::ready();
         }

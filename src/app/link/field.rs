@@ -113,6 +113,7 @@ pub(super) fn fields() -> Vec<Field> {
     add("/design/search/generations", Kind::Whole(GENERATIONS.0, GENERATIONS.1));
     add("/lesson", Kind::Word);
     add("/step", Kind::Whole(1, STEPS));
+    add("/lang", Kind::Word);
     add("/dark", Kind::Flag);
     add("/projector", Kind::Flag);
     add("/beam_moves", Kind::Flag);

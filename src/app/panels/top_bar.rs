@@ -1,12 +1,12 @@
 //! Name, tabs, and the switches that concern the whole page.
 
-use egui::Ui;
+use egui::{Popup, Ui};
 
 use super::{Context, share, shortcuts};
 use crate::app::command::Command;
 use crate::app::panels::computing;
 use crate::app::session::Status;
-use crate::app::text::tr;
+use crate::app::text::{self, Language, tr};
 use crate::app::view::Tab;
 use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, sign, tabs};
 use crate::app::{fonts, theme};
@@ -76,6 +76,7 @@ fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str
 }
 
 fn switches(context: &mut Context<'_>, ui: &mut Ui) {
+    languages(context, ui);
     let dark = theme::tokens(ui).dark;
     let (icon, label) = if dark { (Icon::Sun, tr("Light theme")) } else { (Icon::Moon, tr("Dark theme")) };
     if icon_button(ui, icon, label).clicked() {
@@ -95,4 +96,18 @@ fn switches(context: &mut Context<'_>, ui: &mut Ui) {
     if icon_button(ui, icon, label).clicked() {
         context.commands.push(Command::Pin(!pinned));
     }
+}
+
+/// The languages, each by its own name.
+fn languages(context: &mut Context<'_>, ui: &mut Ui) {
+    let button = icon_button(ui, Icon::Globe, tr("Language"));
+    let popup = Popup::from_toggle_button_response(&button).accessible_name(tr("Language"));
+    popup.show(|ui| {
+        for language in Language::ALL {
+            let spoken = language == text::language();
+            if ui.selectable_label(spoken, language.own_name()).clicked() {
+                context.commands.push(Command::Speak(language));
+            }
+        }
+    });
 }
