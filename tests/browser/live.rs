@@ -12,10 +12,28 @@ fn click(page: &mut Page, label: &str) {
     page.click(control.at(0.5, 0.5));
 }
 
-/// The number on the tile of periods.
+/// The number on the tile of periods, once it is drawn.
+fn seen(page: &Page) -> Option<f64> {
+    let controls = page.controls();
+    let tile = controls.iter().find_map(|control| control.label.strip_prefix("Periods: "))?;
+    tile.trim().parse().ok()
+}
+
 fn periods(page: &mut Page) -> f64 {
-    let tile = page.find("Periods: ", &["Label"]);
-    tile.label.trim_start_matches("Periods: ").trim().parse().expect("a number of periods")
+    page.wait("the number of periods", seen)
+}
+
+/// Waits until the number of periods is as wanted.
+fn wait_for(page: &mut Page, what: &str, wanted: impl Fn(f64) -> bool) {
+    page.wait(what, |page| seen(page).filter(|periods| wanted(*periods)));
+}
+
+/// What the slider of the damping shows, once it is as wanted.
+fn wait_damping(page: &mut Page, wanted: impl Fn(f64) -> bool) {
+    page.wait("the damping", |page| {
+        let slider = page.controls().into_iter().find(|it| it.role == "Slider" && it.label == "Damping")?;
+        slider.number.filter(|damping| wanted(*damping))
+    });
 }
 
 /// What the sound card was given: how many samples, and how loud they were.
@@ -45,7 +63,7 @@ fn time_goes_on_while_a_slider_is_dragged() {
     // A drag changes the numbers on the way, and the run neither stops nor starts again.
     let damping = number(&mut page, "Damping");
     drag_slider(&mut page, "Damping", 0.4, 0.6, 60);
-    page.wait("another damping", |page| (number(page, "Damping") > damping).then_some(()));
+    wait_damping(&mut page, |now| now > damping);
     let dragged = periods(&mut page);
     assert!(dragged > later, "{later} {dragged}");
     page.screenshot("live-dragged");
@@ -56,17 +74,16 @@ fn time_goes_on_while_a_slider_is_dragged() {
     sleep(Duration::from_millis(500));
     assert_eq!(periods(&mut page), paused);
     click(&mut page, "Step a period");
-    page.wait("a period", |page| ((periods(page) - paused - 1.0).abs() < 0.15).then_some(()));
+    wait_for(&mut page, "a period", |now| (now - paused - 1.0).abs() < 0.15);
     click(&mut page, "Kick up");
     click(&mut page, "Run");
-    page.wait("the run to go on", |page| (periods(page) > paused + 1.5).then_some(()));
+    wait_for(&mut page, "the run to go on", |now| now > paused + 1.5);
 
-    // The link has the speed, the undo has the drag and no more.
-    let undone = page.script("return harvester.undo()");
-    println!("undo: {undone}");
-    page.wait("the old damping", |page| (number(page, "Damping") == damping).then_some(()));
+    // The whole drag is one step, and the run made none.
+    page.script("harvester.undo()");
+    wait_damping(&mut page, |now| now == damping);
     click(&mut page, "From rest");
-    page.wait("a new start", |page| (periods(page) < paused).then_some(()));
+    wait_for(&mut page, "a new start", |now| now < paused);
     page.close();
 }
 

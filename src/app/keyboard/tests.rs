@@ -147,7 +147,7 @@ fn the_live_run_has_keys_and_leaves_undo_alone() {
     // The drag is the one step there is.
     desk.press(Key::K, plain);
     desk.press(Key::Z, Modifiers::COMMAND);
-    assert_eq!(desk.app.history.can().0, false);
+    assert!(!desk.app.history.can().0);
     for plot in [Some(Panel::Oscilloscope), Some(Panel::LivePortrait), Some(Panel::LiveBeam), None] {
         desk.press(Key::F, plain);
         assert_eq!(desk.app.view.enlarged, plot);

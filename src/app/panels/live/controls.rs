@@ -18,15 +18,16 @@ const KICKS: [(f64, &str); 4] = [(0.05, "5 %"), (0.2, "20 %"), (0.5, "50 %"), (1
 /// Excitation periods a second from which the voltage can be heard, and a speed at which it sounds well.
 const AUDIBLE: f64 = 20.0;
 const SOUNDS_WELL: f64 = 110.0;
-/// Width of the speed's slider, and of the card from which it stands beside the other choices.
-const SPEED_WIDTH: f32 = 330.0;
+/// Width of the speed's slider.
+const SPEED_WIDTH: f32 = 300.0;
 
 /// Draws the card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     Card::new("").hugging().show(ui, |ui| {
         ui.horizontal_wrapped(|ui| buttons(context, ui));
+        ui.add_space(2.0);
         ui.horizontal_wrapped(|ui| choices(context, ui));
-        ui.add_space(4.0);
+        ui.add_space(6.0);
         readout::show(context, ui);
         state(context, ui);
     });
@@ -68,7 +69,7 @@ fn buttons(context: &mut Context<'_>, ui: &mut Ui) {
     }
     if sounds && context.view.live.speed < AUDIBLE {
         let label = fill("Audible from {speed} periods a second", &[("speed", &AUDIBLE)]);
-        ui.label(RichText::new(label).small().color(tokens.warning));
+        note(ui, &label, tokens.warning);
     }
     let label = fill("{speed} periods/s", &[("speed", &SOUNDS_WELL)]);
     if sounds && context.view.live.speed < SOUNDS_WELL && ui.button(label).clicked() {
@@ -89,7 +90,7 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
             .show(ui);
     });
     let weak = theme::tokens(ui).text_weak;
-    ui.label(RichText::new(tr("kick")).small().color(weak));
+    note(ui, tr("kick"), weak);
     chips(ui, tr("Strength of a kick"), &mut live.kick, &KICKS);
     if let Some((system, _, _)) = context.live.now() {
         let velocity = kick(&live, system);
@@ -101,7 +102,7 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
             None => fill("of the gap: dq₁/dt {speed}", &[("speed", &short(velocity))]),
         };
         let hint = tr("Mode 1 gets this velocity, with which it alone would swing out so far.");
-        ui.label(RichText::new(text).small().color(weak)).on_hover_text(hint);
+        note(ui, &text, weak).on_hover_text(hint);
     }
     let mut dimensionless = context.view.design.dimensionless;
     let units = [(false, tr("SI units")), (true, tr("dimensionless"))];
@@ -111,6 +112,11 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     if live != context.view.live {
         look(context, |view| *view = live);
     }
+}
+
+/// A small text that goes to the next row as a whole.
+fn note(ui: &mut Ui, text: &str, colour: egui::Color32) -> egui::Response {
+    ui.add(egui::Label::new(RichText::new(text).small().color(colour)).extend())
 }
 
 /// Why the run stands still, and the ways on.

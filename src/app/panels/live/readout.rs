@@ -31,7 +31,7 @@ pub(super) fn show(context: &Context<'_>, ui: &mut Ui) {
         (Some((_, power, _)), Some(units)) => {
             let watts = units.watts(power);
             let (factor, name) = prefix(watts);
-            (significant(watts / factor, 3), format!("{name}W"))
+            (significant(factor * watts, 3), format!("{name}W"))
         }
     };
     let period = system.parameters.period();
