@@ -95,6 +95,14 @@ impl Live {
         self.run.as_ref().map(|run| (run.system(), run.state(), Sample::of(run)))
     }
 
+    /// What plots show as the present: of a run that ended early, the last that is in sight.
+    pub(super) fn present(&self) -> Option<Sample> {
+        match self.ended {
+            Some(End::Outcome(_)) => self.trail.samples.back().copied(),
+            _ => self.run.as_ref().map(Sample::of),
+        }
+    }
+
     /// Whether the voltage is to be heard.
     pub(super) fn sounds(&self) -> bool {
         self.sound.is_some()
@@ -169,7 +177,8 @@ impl Live {
             }
             LiveAction::Clear => self.trail.clear(),
             LiveAction::Sound => {
-                self.sound = if self.sounds() { None } else { Some(Sound::new(self.turns())) };
+                self.sound =
+                    if self.sounds() { None } else { Some(Sound::new(self.turns(), self.trail.scales[0])) };
             }
         }
     }

@@ -6,6 +6,8 @@ pub(in crate::app) const RATE: f64 = 24_000.0;
 const CHUNK: usize = 600;
 /// How loud a steady peak is, of 1.
 const LOUDNESS: f64 = 0.25;
+/// What no sample is louder than.
+const LOUDEST: f64 = 0.6;
 /// Voltage (V) that is not made louder than that: below it, silence is silence.
 const LEAST: f64 = 0.05;
 /// Part of the way to a louder and to a softer level that is gone in a sample: about 10 ms and 3 s.
@@ -23,9 +25,9 @@ pub(super) struct Sound {
 }
 
 impl Sound {
-    /// Silence until the run goes on from `turns`.
-    pub(super) fn new(turns: f64) -> Self {
-        Self { due: turns, spacing: 1.0, leveller: Leveller { level: LEAST }, ready: Vec::new() }
+    /// Silence until the run goes on from `turns`, with peaks of about `peak` volts so far.
+    pub(super) fn new(turns: f64, peak: f64) -> Self {
+        Self { due: turns, spacing: 1.0, leveller: Leveller { level: peak.max(LEAST) }, ready: Vec::new() }
     }
 
     /// Goes on from `turns` at least, at `speed` excitation periods a second.
@@ -57,14 +59,14 @@ struct Leveller {
 }
 
 impl Leveller {
-    /// A sample between -1 and 1.
+    /// A sample between plus and minus [`LOUDEST`].
     fn level(&mut self, voltage: f64) -> f32 {
         let size = if voltage.is_finite() { voltage.abs() } else { 0.0 };
         let rate = if size > self.level { LOUDER } else { SOFTER };
         self.level += rate * (size.max(LEAST) - self.level);
         // Peaks above the level, such as those of a kick, are bent, not cut.
         let sample = if voltage.is_finite() { LOUDNESS * voltage / self.level } else { 0.0 };
-        sample.tanh() as f32
+        (LOUDEST * (sample / LOUDEST).tanh()) as f32
     }
 }
 
@@ -85,7 +87,7 @@ mod tests {
         let whole = Trajectory::compute(&system, &[0.0; 5], 10.0, Settings::default()).expect("a run");
         let period = system.parameters.period();
         let mut run = LiveRun::begin(system, vec![0.0; 5], 0.0, 0.0).expect("from rest");
-        let (mut sound, mut expected) = (Sound::new(0.0), Leveller { level: LEAST });
+        let (mut sound, mut expected) = (Sound::new(0.0, 0.0), Leveller { level: LEAST });
         let speed = 110.0;
         sound.tune(0.0, speed);
         for k in 0..2000 {
@@ -105,7 +107,7 @@ mod tests {
             let samples: Vec<f32> =
                 (0..480_000).map(|k| leveller.level(peak * (TAU * 0.01 * f64::from(k)).sin())).collect();
             let loudest = |part: &[f32]| part.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
-            assert!(loudest(&samples) <= 1.0);
+            assert!(loudest(&samples) <= LOUDEST as f32);
             let late = loudest(&samples[400_000..]);
             assert!((0.2..0.4).contains(&late), "{peak} V: {late}");
         }
@@ -116,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_rest_leaves_no_samples_to_be_made_up_for() {
-        let mut sound = Sound::new(0.0);
+        let mut sound = Sound::new(0.0, 14.0);
         sound.tune(0.0, 100.0);
         sound.take(1.0);
         let due = sound.due;

@@ -19,7 +19,7 @@ const KICKS: [(f64, &str); 4] = [(0.05, "5 %"), (0.2, "20 %"), (0.5, "50 %"), (1
 const AUDIBLE: f64 = 20.0;
 const SOUNDS_WELL: f64 = 110.0;
 /// Width of the speed's slider.
-const SPEED_WIDTH: f32 = 300.0;
+const SPEED_WIDTH: f32 = 380.0;
 
 /// Draws the card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {

@@ -27,18 +27,18 @@ pub(in crate::app::panels) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
-    let Some((_, _, now)) = context.live.now() else { return };
+    let Some(now) = context.live.present() else { return };
+    let (traced, trail) = (Traced::of(context), &context.live.trail);
+    let old = trail.strobe.partition_point(|sample| sample.turns < trail.changed);
     let entries = [
         (Series::Numeric, tr("motion")),
         (Series::Poincare, tr("at phase 0")),
         (Series::Ghost, tr("before the last change")),
     ];
-    legend::legend(ui, &entries);
-    let (traced, trail) = (Traced::of(context), &context.live.trail);
+    legend::legend(ui, if old > 0 { &entries } else { &entries[..2] });
     let place = |sample: &Sample| traced.point(sample).into();
     let mut motion: Vec<PlotPoint> = trail.since(now.turns - PORTRAIT).map(place).collect();
     motion.push(place(&now));
-    let old = trail.strobe.partition_point(|sample| sample.turns < trail.changed);
     let before: Vec<PlotPoint> = trail.strobe.range(..old).map(place).collect();
     let mut points: Vec<PlotPoint> = trail.strobe.range(old..).map(place).collect();
     // Newest first, so that ages count from the front.

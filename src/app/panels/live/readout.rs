@@ -3,6 +3,7 @@
 use egui::Ui;
 
 use super::si;
+use crate::app::live::End;
 use crate::app::panels::Context;
 use crate::app::panels::controls::short;
 use crate::app::text::{fill, tr};
@@ -17,9 +18,11 @@ const TILE: f32 = 104.0;
 pub(super) fn show(context: &Context<'_>, ui: &mut Ui) {
     let Some((system, _, now)) = context.live.now() else { return };
     let units = si(context);
-    let means = context.live.trail.means();
+    // Voltages of a tip that has flown off mean nothing.
+    let lost = matches!(context.live.ended, Some(End::Outcome(_)));
+    let means = context.live.trail.means().filter(|_| !lost);
     let over = means.map_or_else(
-        || tr("needs a whole period").to_owned(),
+        || if lost { String::new() } else { tr("needs a whole period").to_owned() },
         |(_, _, periods)| fill("over the last {count} periods", &[("count", &periods)]),
     );
     let (time, second) = units.map_or((now.time, ""), |units| (units.time * now.time, "s"));

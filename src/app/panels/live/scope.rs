@@ -44,7 +44,7 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn plot(context: &Context<'_>, ui: &mut Ui, triggered: bool) {
-    let Some((system, _, now)) = context.live.now() else { return };
+    let (Some((system, _, _)), Some(now)) = (context.live.now(), context.live.present()) else { return };
     let traced = Traced::of(context);
     let (units, periods) = (si(context), context.view.live.periods as f64);
     let period = system.parameters.period();
