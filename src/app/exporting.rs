@@ -187,6 +187,7 @@ impl App {
                     studies: &crew.studies,
                     bench: &self.bench,
                     course: &self.course,
+                    live: &self.live,
                     address: &self.address,
                     steps: (false, false),
                     commands: &mut commands,

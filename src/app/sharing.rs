@@ -14,12 +14,14 @@ const LARGEST_FILE: usize = 1 << 20;
 const LOOKS: [&str; 3] = ["dark", "projector", "beam_moves"];
 
 /// What only the browser can do.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Errand {
     /// Save a text as a file of this name and type.
     Save(String, &'static str, String),
     /// Make a picture of this drawing with so many times its pixels, and save it under this name.
     Picture(String, String, u8),
+    /// Let these samples between -1 and 1 be heard after those before them; none ends the sound.
+    Sound(Vec<f32>),
     /// Ask for a file, and pass it to [`App::open_file`].
     Open,
 }

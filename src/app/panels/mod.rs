@@ -12,6 +12,7 @@ pub(super) mod explore;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
 pub(super) mod lessons;
+pub(super) mod live;
 pub(super) mod multipliers;
 pub(super) mod orbit_diagram;
 pub(super) mod paper;
@@ -35,8 +36,9 @@ use super::bench::Bench;
 use super::command::{Command, Commands};
 use super::crew::Studies;
 use super::lessons::Course;
+use super::live::Live;
 use super::session::{Session, Shown, Status};
-use super::view::{Panel, View};
+use super::view::{Panel, Tab, View};
 use super::widgets::{Card, Icon};
 use crate::export::Format;
 
@@ -47,6 +49,7 @@ pub(super) struct Context<'a> {
     pub studies: &'a Studies,
     pub bench: &'a Bench,
     pub course: &'a Course,
+    pub live: &'a Live,
     /// The page's own address, without a fragment.
     pub address: &'a str,
     /// Whether there is a step to take back, and one to take again.
@@ -98,11 +101,11 @@ impl<'a> Context<'a> {
         let large = self.view.enlarged == Some(panel);
         let (icon, label) = if large { (Icon::Shrink, "Show all plots") } else { (Icon::Enlarge, "Enlarge") };
         let card = Card::new(title).hint(hint);
-        // The evidence is text.
-        let card = if panel == Panel::Evidence { card } else { card.exports() };
+        // The evidence is text, the beam a picture.
+        let card = if matches!(panel, Panel::Evidence | Panel::LiveBeam) { card } else { card.exports() };
         let card = card.button(icon, label);
         let shown = card.show(ui, |ui| {
-            if self.is_stale() {
+            if self.is_stale() && self.view.tab != Tab::Live {
                 ui.multiply_opacity(0.55);
             }
             contents(self, ui);

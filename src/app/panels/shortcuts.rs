@@ -9,7 +9,7 @@ use crate::app::{fonts, theme};
 const WIDTH: f32 = 420.0;
 
 /// Keys and what they do.
-const KEYS: [(&str, &str); 17] = [
+const KEYS: [(&str, &str); 20] = [
     ("1 2 3 …", "open a tab"),
     ("Tab, Shift+Tab", "go to the next or last control"),
     ("Enter, Space", "press it"),
@@ -22,6 +22,9 @@ const KEYS: [(&str, &str); 17] = [
     ("Escape", "show all plots; close; leave a field"),
     ("P", "pin the curves, or drop them"),
     ("B", "let the beam move, or hold it"),
+    ("Space", "on Live: run or pause"),
+    (". ,", "on Live: go on for a period, for a frame"),
+    ("K J R C S", "on Live: kick up, down; from rest; clear; sound"),
     ("D, L", "dark or light; large type"),
     ("Ctrl+Z, Ctrl+Shift+Z", "undo; redo"),
     ("Ctrl+S, Ctrl+O", "save or open a file"),

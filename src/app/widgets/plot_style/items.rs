@@ -93,6 +93,17 @@ pub fn rule(plot: &mut PlotUi<'_>, upright: bool, name: &str, at: f64, colour: e
 
 /// Points where the data are: large when few, small when many.
 pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [PlotPoint]) {
+    faded_points(plot, kind, name, places, 1.0);
+}
+
+/// The same with less of their colour, such as older ones.
+pub fn faded_points<'a>(
+    plot: &mut PlotUi<'a>,
+    kind: Series,
+    name: &str,
+    places: &'a [PlotPoint],
+    strength: f32,
+) {
     let colour = kind.colour(theme::tokens_in(plot.ctx()));
     let (radius, opacity) = match (kind, places.len()) {
         (Series::Ghost, 0..=40) => (3.0, 0.6),
@@ -104,6 +115,7 @@ pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [
         (_, 41..=400) => (2.6, 0.9),
         _ => (1.5, 0.75),
     };
+    let opacity = opacity * strength;
     let filled = !matches!(kind.pen(), Pen::Rings(_));
     let pen = if filled { Pen::Points(radius) } else { Pen::Rings(radius) };
     record(plot, name, Some(kind), colour.gamma_multiply(opacity), pen, places);
