@@ -51,6 +51,7 @@ use session::{Session, Status};
 use sharing::Errand;
 use view::{MapWindow, Tab, View};
 
+use crate::app::text::tr;
 use crate::export::Format;
 
 /// Width of the left column, of that with units beside the numbers, and page width below which the columns are stacked.
@@ -394,7 +395,7 @@ fn draw_notice(context: &mut Context<'_>, ui: &mut Ui, message: &str) {
     let tokens = theme::tokens(ui);
     egui::Frame::new().fill(tokens.card).corner_radius(theme::radius::CARD).inner_margin(10).show(ui, |ui| {
         ui.horizontal(|ui| {
-            if widgets::icon_button(ui, widgets::Icon::Close, "Dismiss").clicked() {
+            if widgets::icon_button(ui, widgets::Icon::Close, tr("Dismiss")).clicked() {
                 context.commands.push(Command::DismissNotice);
             }
             ui.add(egui::Label::new(egui::RichText::new(message).color(tokens.warning)).wrap());

@@ -5,6 +5,7 @@ use super::lessons::course;
 use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
+use crate::app::text::{fill, reworded, tr};
 
 /// Name of saved files.
 const FILE_NAME: &str = "harvester-scenario.json";
@@ -76,7 +77,10 @@ impl App {
                 self.replace(view, false);
             }
             Err(reason) => {
-                self.notice = Some(format!("{name} could not be opened: {reason}. Nothing was changed."));
+                self.notice = Some(fill(
+                    "{name} could not be opened: {reason}. Nothing was changed.",
+                    &[("name", &name), ("reason", &reworded(&reason))],
+                ));
             }
         }
     }
@@ -91,12 +95,12 @@ impl App {
 
     fn read_file(&self, bytes: Vec<u8>) -> Result<View, String> {
         if bytes.len() > LARGEST_FILE {
-            return Err("it is too large for a scenario".to_owned());
+            return Err(tr("it is too large for a scenario").to_owned());
         }
-        let text = String::from_utf8(bytes).map_err(|_| "it is not a text".to_owned())?;
+        let text = String::from_utf8(bytes).map_err(|_| tr("it is not a text").to_owned())?;
         let text = text.trim_start_matches('\u{feff}');
         if !text.trim_start().starts_with('{') {
-            return Err("it is not a scenario, which begins with {".to_owned());
+            return Err(tr("it is not a scenario, which begins with {").to_owned());
         }
         Ok(View::read(text, &self.view)?.with_looks_of(&self.view))
     }

@@ -10,6 +10,7 @@ use self::design::DesignView;
 use self::live::LiveView;
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
+use crate::app::text::{fill, marked};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::study::curves;
 use crate::jobs::study::sweep::COUNTS;
@@ -41,13 +42,13 @@ pub enum Tab {
 impl Tab {
     /// All of them in their order, with their names.
     pub const NAMED: [(Self, &'static str); 7] = [
-        (Self::Explore, "Explore"),
-        (Self::Live, "Live"),
-        (Self::Stability, "Stability"),
-        (Self::Sweep, "Sweep"),
-        (Self::Design, "Design"),
-        (Self::Paper, "Paper"),
-        (Self::Lessons, "Lessons"),
+        (Self::Explore, marked("Explore")),
+        (Self::Live, marked("Live")),
+        (Self::Stability, marked("Stability")),
+        (Self::Sweep, marked("Sweep")),
+        (Self::Design, marked("Design")),
+        (Self::Paper, marked("Paper")),
+        (Self::Lessons, marked("Lessons")),
     ];
 }
 
@@ -314,8 +315,10 @@ impl View {
         match Self::read(text, &Self::default()) {
             Ok(view) => (view, None),
             Err(reason) => {
-                let message =
-                    format!("The stored state could not be used ({reason}); this is a fresh start.");
+                let message = fill(
+                    "The stored state could not be used ({reason}); this is a fresh start.",
+                    &[("reason", &reason)],
+                );
                 (Self::default(), Some(message))
             }
         }

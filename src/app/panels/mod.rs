@@ -40,6 +40,7 @@ use super::live::Live;
 use super::session::{Session, Shown, Status};
 use super::view::{Panel, Tab, View};
 use super::widgets::{Card, Icon};
+use crate::app::text::{fill, tr};
 use crate::export::Format;
 
 /// What a panel may look at, and where it leaves its wishes.
@@ -99,7 +100,8 @@ impl<'a> Context<'a> {
         contents: impl FnOnce(&mut Self, &mut egui::Ui),
     ) {
         let large = self.view.enlarged == Some(panel);
-        let (icon, label) = if large { (Icon::Shrink, "Show all plots") } else { (Icon::Enlarge, "Enlarge") };
+        let (icon, label) =
+            if large { (Icon::Shrink, tr("Show all plots")) } else { (Icon::Enlarge, tr("Enlarge")) };
         let card = Card::new(title).hint(hint);
         // The evidence is text, the beam a picture.
         let card = if matches!(panel, Panel::Evidence | Panel::LiveBeam) { card } else { card.exports() };
@@ -115,4 +117,9 @@ impl<'a> Context<'a> {
             self.commands.push(Command::Enlarge((!large).then_some(panel)));
         }
     }
+}
+
+/// What is said of work under way, by its done part, 0 to 1.
+fn computing(part: f64) -> String {
+    fill("computing {percent} %", &[("percent", &format!("{:.0}", 100.0 * part))])
 }
