@@ -164,7 +164,7 @@ impl Scenario {
 }
 
 /// A state of another number of modes (length 2M + 1) for `modes` of them (length 2N + 1): what both have is kept.
-pub(crate) fn fit_state(state: &[f64], modes: usize) -> Vec<f64> {
+pub fn fit_state(state: &[f64], modes: usize) -> Vec<f64> {
     let before = state.len() / 2;
     let mut fitted = vec![0.0; state_dimension(modes)];
     let common = modes.min(before);
