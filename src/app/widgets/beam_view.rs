@@ -174,7 +174,7 @@ struct View {
 impl View {
     fn fit(rect: Rect, beam: &BeamView<'_>) -> Self {
         let left = rect.left() + 22.0;
-        let scale = f64::from((rect.right() - 58.0 - left).max(30.0));
+        let scale = f64::from((rect.right() - 66.0 - left).max(30.0));
         let magnet = (MAGNET * scale).clamp(8.0, 16.0) as f32;
         let heights =
             beam.extremes.iter().flat_map(|shape| shape.iter()).chain(beam.shape).map(|p| p[1] + beam.base);
