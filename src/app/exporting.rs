@@ -188,6 +188,7 @@ impl App {
                     bench: &self.bench,
                     course: &self.course,
                     address: &self.address,
+                    embed: self.embed.as_ref(),
                     steps: (false, false),
                     commands: &mut commands,
                 };

@@ -21,6 +21,7 @@ mod command;
 mod comparison;
 pub mod crew;
 mod curves;
+pub mod embed;
 mod exporting;
 mod figures;
 mod history;
@@ -43,6 +44,7 @@ use egui::{Margin, Ui};
 use bench::Bench;
 use command::{Command, Commands};
 use crew::Crew;
+use embed::Embed;
 use lessons::Course;
 use panels::Context;
 use session::{Session, Status};
@@ -65,6 +67,8 @@ pub struct App {
     course: Course,
     notice: Option<String>,
     history: history::History<steps::Moment>,
+    /// What the address asks to be shown of the page; all of it when absent.
+    embed: Option<Embed>,
     /// The page's own address, without a fragment; empty outside a browser.
     address: String,
     /// What the browser is to do.
@@ -93,6 +97,7 @@ impl App {
             course,
             notice,
             history,
+            embed: None,
             address,
             errands,
             exports,
@@ -124,7 +129,7 @@ impl App {
     /// Asks the crew for what the page shows beside the run, and lets it go on.
     fn study(&mut self, context: &egui::Context) {
         let mut crew = self.crew.borrow_mut();
-        crew.studies.follow(&self.view, &self.session);
+        crew.studies.follow(&self.view, &self.session, self.embed.as_ref());
         crew.tick(context.input(|input| input.pointer.any_down()));
         if crew.works_on_this_thread() && crew.is_busy() {
             context.request_repaint();
@@ -144,18 +149,47 @@ impl App {
     /// Gives the crew what the view asks for now, without waiting for the next frame.
     fn follow(&mut self) {
         let mut crew = self.crew.borrow_mut();
-        crew.studies.follow(&self.view, &self.session);
+        crew.studies.follow(&self.view, &self.session, self.embed.as_ref());
         crew.hand_out();
+    }
+
+    /// Shows only what the part of an address from `?` on asks for, if it does.
+    pub fn embed(&mut self, search: &str) {
+        self.embed = Embed::read(search);
+    }
+
+    /// Whether it does.
+    pub fn is_embedded(&self) -> bool {
+        self.embed.is_some()
+    }
+
+    /// Whether the page keeps an event for itself. Otherwise the browser scrolls what is around the page.
+    pub fn keeps(&self, context: &egui::Context, event: &egui::Event) -> bool {
+        self.embed
+            .as_ref()
+            .is_none_or(|embed| embed.keeps(event, &|place| widgets::touch::is_grip(context, place)))
+    }
+
+    /// Leaves those events out that belong to the browser.
+    pub fn sift(&self, context: &egui::Context, events: &mut Vec<egui::Event>) {
+        events.retain(|event| !matches!(event, egui::Event::MouseWheel { .. }) || self.keeps(context, event));
+        widgets::touch::end_cancelled(events, context.input(|input| input.pointer.latest_pos()));
     }
 
     /// Draws one frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
+        widgets::touch::begin_frame(ui.ctx());
         let mut commands = Commands::new();
         let hand = steps::hand(ui.ctx());
         self.history.begin_frame(hand);
         let (pinned, dark) = (self.session.pinned.is_some(), theme::tokens(ui).dark);
         keyboard::shortcuts(ui.ctx(), &self.view, pinned, dark, &mut commands);
+        if self.embed.is_some() {
+            // What the whole page would show or save is not there.
+            commands
+                .retain(|command| matches!(command, Command::Undo | Command::Redo | Command::Enlarge(None)));
+        }
         let crew = self.crew.borrow();
         let mut context = Context {
             view: &self.view,
@@ -164,6 +198,7 @@ impl App {
             bench: &self.bench,
             course: &self.course,
             address: &self.address,
+            embed: self.embed.as_ref(),
             steps: self.history.can(),
             commands: &mut commands,
         };
@@ -298,6 +333,9 @@ impl App {
 
 /// The whole page: bar, notice, column and tab.
 fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
+    if let Some(embed) = context.embed {
+        return panels::embedded::show(context, embed, notice, ui);
+    }
     let tokens = theme::tokens(ui);
     let bar = egui::Frame::new().fill(tokens.bar).inner_margin(Margin::symmetric(14, 7));
     egui::Panel::top("bar")

@@ -66,7 +66,8 @@ pub(super) fn place(ui: &mut Ui, width: f32, height: f32, draw: &mut dyn FnMut(&
     });
 }
 
-fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
+/// One of the plots that stand in such grids.
+pub(super) fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
     match panel {
         Panel::StabilityMap => stability_map::show(context, ui),
         Panel::PhasePortrait => phase_portrait::show(context, ui),

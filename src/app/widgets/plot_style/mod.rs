@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 
 use egui_plot::{AxisHints, GridInput, GridMark, HoverPosition, Plot, PlotPoint};
 
-use super::{number, recorder};
+use super::{number, recorder, touch};
 use crate::app::{fonts, theme};
 
 pub use crate::export::axis::{Axis, Tick, from_log, to_log};
@@ -50,7 +50,11 @@ pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> P
     let (x_readout, y_readout) = (x.clone(), y.clone());
     Plot::new(id)
         // Not for the keyboard: what is in it to be pointed at has a control of its own.
-        .sense(egui::Sense::CLICK | egui::Sense::DRAG)
+        .sense(if touch::in_use(ui.ctx()) {
+            egui::Sense::CLICK
+        } else {
+            egui::Sense::CLICK | egui::Sense::DRAG
+        })
         .custom_x_axes(vec![hints(AxisHints::new_x(), x, 26.0)])
         .custom_y_axes(vec![hints(AxisHints::new_y(), y, 13.0).min_thickness(24.0)])
         .x_grid_spacer(move |input| grid(&x_spacer, &input, 54.0))
