@@ -10,12 +10,13 @@ async function harvester() {
 
 const lab = await harvester();
 
-// Told at most five times a second; the verdict is null while it is being computed.
+// Told at most five times a second. The result may still be that of the question before.
 function tell() {
-  const { view, verdict } = JSON.parse(lab.state());
+  const { view, result, generation, shown_generation } = JSON.parse(lab.state());
   const { alpha, beta, omega } = view.scenario.parameters;
   const numbers = `α = ${alpha}, β = ${beta}, ω = ${omega}`;
-  element("verdict").textContent = verdict ? `${numbers}: ${verdict.sentence}` : `${numbers}: computing.`;
+  const volts = generation === shown_generation ? result.summary?.v_rms : null;
+  element("result").textContent = `${numbers}: ${volts ? `${volts.toPrecision(3)} V rms` : "no voltage yet"}`;
 }
 
 frame.contentWindow.addEventListener("harvester:change", tell);

@@ -122,6 +122,8 @@ window.harvesterShell = Object.freeze({
     });
     dispatchEvent(new CustomEvent("harvester:change", { detail }));
   },
+  // What is around the canvas looks as what is in it.
+  look: (dark, contrast) => (root.dataset.look = `${dark ? "dark" : "light"}${contrast ? " contrast" : ""}`),
   fail,
   // A worker that runs the page's own module, compiled only once.
   worker: (wasm) => {

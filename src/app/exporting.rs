@@ -170,7 +170,7 @@ impl App {
             size = page.content_rect().size();
             (time, frames) = (page.input(|input| input.time), 1);
         }
-        theme::apply(&hidden, false);
+        theme::apply(&hidden, &theme::LIGHT);
         let crew = self.crew.borrow();
         for frame in 0..frames {
             let input = RawInput {

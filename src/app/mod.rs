@@ -76,7 +76,9 @@ pub struct App {
     /// Cards to be saved at the end of this frame.
     exports: Vec<(String, Format)>,
     /// What egui was last told about theme and type size.
-    styled: Option<(bool, bool)>,
+    styled: Option<(bool, bool, bool)>,
+    /// Whether the system asks for high contrast.
+    system_contrast: bool,
 }
 
 impl App {
@@ -102,6 +104,7 @@ impl App {
             errands,
             exports,
             styled: None,
+            system_contrast: false,
         };
         app.style(context);
         app
@@ -248,6 +251,8 @@ impl App {
                 self.bench.pinned = keep.then(|| crew.studies.bench.pinned(&self.view.scenario));
             }
             Command::SetDark(dark) => self.view.dark = Some(dark),
+            Command::SetContrast(contrast) => self.view.contrast = Some(contrast),
+            Command::FollowSystem => (self.view.dark, self.view.contrast) = (None, None),
             Command::SetProjector(large) => self.view.projector = large,
             Command::MoveBeam(moves) => self.view.beam_moves = moves,
             Command::DismissNotice => self.notice = None,
@@ -296,15 +301,26 @@ impl App {
         }
     }
 
+    /// Says whether the system asks for high contrast.
+    pub fn set_system_contrast(&mut self, contrast: bool) {
+        self.system_contrast = contrast;
+    }
+
+    /// Whether the theme is dark, and whether it has high contrast.
+    pub fn look(&self, context: &egui::Context) -> (bool, bool) {
+        let system = context.system_theme().unwrap_or(egui::Theme::Dark) == egui::Theme::Dark;
+        (self.view.dark.unwrap_or(system), self.view.contrast.unwrap_or(self.system_contrast))
+    }
+
     /// Tells egui about theme and type size when they have changed.
     fn style(&mut self, context: &egui::Context) {
-        let system = context.system_theme().unwrap_or(egui::Theme::Dark) == egui::Theme::Dark;
-        let wanted = (self.view.dark.unwrap_or(system), self.view.projector);
+        let (dark, contrast) = self.look(context);
+        let wanted = (dark, contrast, self.view.projector);
         if self.styled == Some(wanted) {
             return;
         }
-        theme::apply(context, wanted.0);
-        context.set_zoom_factor(if wanted.1 { theme::PROJECTOR_ZOOM } else { 1.0 });
+        theme::apply(context, theme::Tokens::of(dark, contrast));
+        context.set_zoom_factor(if wanted.2 { theme::PROJECTOR_ZOOM } else { 1.0 });
         self.styled = Some(wanted);
     }
 

@@ -135,6 +135,9 @@ struct Page {
     keeper: Rc<RefCell<storage::Keeper>>,
     mirror: mirror::Mirror,
     recorder: Recorder,
+    contrast: around::Contrast,
+    /// The look that the shell was told last.
+    look: Option<(bool, bool)>,
     shown: bool,
 }
 
@@ -148,6 +151,8 @@ impl Page {
         let mut app = App::new(context, keeper.stored(), Rc::clone(&crew));
         app.set_address(address::base());
         app.embed(&search);
+        let contrast = around::Contrast::watch(context);
+        app.set_system_contrast(contrast.is_wished());
         if around::has_coarse_pointer() {
             crate::app::widgets::touch::expect_fingers(context);
         }
@@ -164,7 +169,7 @@ impl Page {
         }));
         open_address();
         address::watch(open_address);
-        Self { app, keeper, mirror: mirror::Mirror::default(), recorder, shown: false }
+        Self { app, keeper, mirror: mirror::Mirror::default(), recorder, contrast, look: None, shown: false }
     }
 }
 
@@ -179,7 +184,13 @@ impl eframe::App for Page {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.app.borrow_mut().set_system_contrast(self.contrast.is_wished());
         self.app.borrow_mut().ui(ui);
+        let look = self.app.borrow().look(ui.ctx());
+        if self.look != Some(look) {
+            self.look = Some(look);
+            shell::look(look.0, look.1);
+        }
         let errands = self.app.borrow_mut().take_errands();
         errands.iter().for_each(files::run);
         if !self.shown {

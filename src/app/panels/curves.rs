@@ -8,7 +8,7 @@ use crate::app::command::Command;
 use crate::app::view::Panel;
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips};
+use crate::app::widgets::{Series, chips, legend};
 use crate::app::{colours, questions, theme};
 use crate::dynamics::Instability;
 use crate::jobs::study::Study as _;
@@ -55,17 +55,15 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     if [x, y] != before {
         context.commands.push(Command::OpenPlane([x, y]));
     }
-    let tokens = theme::tokens(ui);
-    let kind = |kind| colours::instability(kind, tokens);
-    crate::app::widgets::swatches(
+    legend::legend(
         ui,
         &[
-            (kind(Instability::PeriodDoubling), "period doubling"),
-            (kind(Instability::NeimarkSacker), "Neimark–Sacker (torus)"),
-            (kind(Instability::Fold), "fold"),
-            (tokens.text_strong, "where they meet"),
+            (Series::Exact, "period doubling"),
+            (Series::Torus, "Neimark–Sacker (torus)"),
+            (Series::Fold, "fold"),
         ],
     );
+    crate::app::widgets::swatches(ui, &[(theme::tokens(ui).text_strong, "where they meet")]);
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {

@@ -17,6 +17,8 @@ const SLIDER: f32 = 250.0;
 const LEAST: egui::Vec2 = vec2(230.0, 170.0);
 /// Width over height that a panel is best seen with.
 const BEST_SHAPE: f32 = 1.35;
+/// What the beam's card needs beside its picture.
+const BEAM_FRAME: f32 = 46.0;
 /// Height of the row with the way to the whole page.
 const WAY_OUT: f32 = 20.0;
 
@@ -88,7 +90,8 @@ fn draw(context: &mut Context<'_>, ui: &mut Ui, part: Part) {
     match part {
         Part::Plot(panel @ (Panel::Harvest | Panel::Load)) => design::plot_alone(context, ui, panel),
         Part::Plot(panel) => explore::draw(context, ui, panel),
-        Part::Beam => beam::show(context, ui),
+        // The card's own title and margin take the rest.
+        Part::Beam => beam::show_in(context, ui, ui.available_height() - BEAM_FRAME),
         Part::Verdict => {}
     }
 }

@@ -32,7 +32,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let reached = reached.filter(|reached| !same(reached, found.forced.as_ref()));
     let name = reached.map(|reached| format!("period {} reached", reached.periods));
     let mut entries = vec![(Series::Forced, "forced motion")];
-    entries.extend(name.as_deref().map(|name| (Series::Up, name)));
+    entries.extend(name.as_deref().map(|name| (Series::Reached, name)));
     legend::legend(ui, &entries);
     if let Some(forced) = &found.forced {
         ui.label(egui::RichText::new(in_words(forced)).small().color(theme::tokens(ui).text_weak));
@@ -56,7 +56,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
             plot.set_plot_bounds(PlotBounds::from_min_max([-reach, -reach], [reach, reach]));
             plot_style::series(plot, Series::Ghost, "unit circle", &circle);
             plot_style::points(plot, Series::Forced, "forced motion", &forced);
-            plot_style::points(plot, Series::Up, "motion reached", &reached);
+            plot_style::points(plot, Series::Reached, "motion reached", &reached);
         },
     );
 }

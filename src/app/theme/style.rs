@@ -86,9 +86,9 @@ fn widgets(tokens: &Tokens) -> Widgets {
     };
     Widgets {
         noninteractive: look(tokens.card, tokens.text, tokens.outline),
-        inactive: look(tokens.field, tokens.text, Color32::TRANSPARENT),
-        hovered: look(tokens.hover, tokens.text_strong, Color32::TRANSPARENT),
+        inactive: look(tokens.field, tokens.text, tokens.edge().color),
+        hovered: look(tokens.hover, tokens.text_strong, tokens.edge().color),
         active: look(tokens.hover, tokens.text_strong, tokens.accent),
-        open: look(tokens.hover, tokens.text_strong, Color32::TRANSPARENT),
+        open: look(tokens.hover, tokens.text_strong, tokens.edge().color),
     }
 }

@@ -63,7 +63,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             (Series::Linear, "without magnets"),
             (Series::Stable, "stable"),
             (Series::Unstable, "unstable"),
-            (Series::Poincare, "from rest"),
+            (Series::FromRest, "from rest"),
             (Series::Up, "swept up"),
             (Series::Down, "swept down"),
             (Series::Beyond, "beyond a limit"),
@@ -170,7 +170,7 @@ fn curves(study: &HarvestStudy) -> Vec<(Series, String, Vec<HarvestPoint>)> {
         }
     }
     let from_rest = study.from_rest().iter().filter_map(|start| start.flatten()).map(|(_, point)| point);
-    curves.push((Series::Poincare, "from rest".to_owned(), from_rest.collect()));
+    curves.push((Series::FromRest, "from rest".to_owned(), from_rest.collect()));
     curves.push((Series::Down, "swept down".to_owned(), lasting(study.swept(Direction::Down))));
     curves.push((Series::Up, "swept up".to_owned(), lasting(study.swept(Direction::Up))));
     curves
@@ -205,7 +205,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
     let measured = super::measured::over_frequency(context, watched, &measure);
     let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.harvest.as_ref());
     for (kind, _, points) in kept.map_or_else(Vec::new, self::curves) {
-        if matches!(kind, Series::Stable | Series::Poincare) {
+        if matches!(kind, Series::Stable | Series::FromRest) {
             drawn.push((Series::Ghost, "pinned", measure.line(&points, 0)));
         }
     }

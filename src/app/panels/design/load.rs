@@ -54,7 +54,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             (Series::Unstable, "unstable"),
             (Series::Up, "reached"),
             (Series::Theory, "best frequency, without magnets"),
-            (Series::Exact, "best frequency, stable motions"),
+            (Series::Best, "best frequency, stable motions"),
             (Series::Beyond, "beyond a limit"),
         ],
     );
@@ -95,7 +95,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
     let linear = best.iter().map(|best| at(best.resistance, best.linear[1])).collect();
     drawn.push((Series::Theory, "without magnets, best frequency", linear));
     let stable = best.iter().filter_map(|best| best.nonlinear.map(|[_, power]| at(best.resistance, power)));
-    drawn.push((Series::Exact, "stable motions, best frequency", stable.collect()));
+    drawn.push((Series::Best, "stable motions, best frequency", stable.collect()));
     drawn.push((Series::Up, "reached", reached.iter().map(place).collect()));
     let safety = Safety::of(view, context.session);
     let demand = |point: &LoadPoint| (point.v_peak, point.tip);

@@ -60,7 +60,7 @@ fn over_time(context: &Context<'_>, ui: &mut Ui, file: &File) {
     plot_style::plot(ui, ("measured", file.name.as_str(), 0), &x, &y).show(ui, |plot| {
         plot_style::series(plot, Series::Numeric, "computed", &curve);
         let colour = theme::tokens_in(plot.ctx()).theory;
-        plot_style::curve(plot, "measured", colour, Pen::Line(1.2), &file.drawn);
+        plot_style::curve(plot, "measured", colour, Pen::Dashes(1.4, 5.0), &file.drawn);
     });
 }
 
@@ -72,7 +72,7 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
             (Series::Measured, "measured"),
             (Series::Linear, "without magnets"),
             (Series::Stable, "stable"),
-            (Series::Up, "from rest"),
+            (Series::FromRest, "from rest"),
         ],
     );
     let (x, y) =
@@ -97,7 +97,7 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
         for run in &stable {
             plot_style::series(plot, Series::Stable, "stable", run);
         }
-        plot_style::points(plot, Series::Up, "from rest", &reached);
+        plot_style::points(plot, Series::FromRest, "from rest", &reached);
         plot_style::points(plot, Series::Measured, "measured", &file.drawn);
     });
 }
