@@ -67,6 +67,8 @@ pub struct Embed {
     pub room: Cell<[f32; 2]>,
     /// Whether the finger holds a control of the page rather than what is around it.
     pub held: Cell<bool>,
+    /// Whether it has moved without holding one: the browser may be scrolling by it then.
+    pub swiped: Cell<bool>,
 }
 
 impl Embed {
@@ -97,7 +99,14 @@ impl Embed {
         ];
         let complaints: Vec<String> = complaints.into_iter().flatten().collect();
         let complaint = (!complaints.is_empty()).then(|| complaints.join(" "));
-        Some(Self { parts, controls, complaint, room: Cell::default(), held: Cell::default() })
+        Some(Self {
+            parts,
+            controls,
+            complaint,
+            room: Cell::default(),
+            held: Cell::default(),
+            swiped: Cell::default(),
+        })
     }
 
     /// Whether this plot is shown.
@@ -116,9 +125,15 @@ impl Embed {
             }
             egui::Event::PointerButton { pos, pressed: true, .. } => {
                 self.held.set(up + down > 0.5 || on_grip(*pos));
+                self.swiped.set(false);
                 self.held.get()
             }
-            egui::Event::PointerMoved(_) => self.held.get(),
+            egui::Event::PointerMoved(_) => {
+                self.swiped.set(!self.held.get());
+                self.held.get()
+            }
+            // Otherwise a tap would be told once more as that of a mouse.
+            egui::Event::PointerButton { .. } => !self.swiped.get(),
             _ => true,
         }
     }
@@ -279,10 +294,17 @@ mod tests {
             modifiers: Modifiers::NONE,
         };
         let moved = Event::PointerMoved(pos2(0.0, 9.0));
+        let release = Event::PointerButton {
+            pos: pos2(0.0, 9.0),
+            button: egui::PointerButton::Primary,
+            pressed: false,
+            modifiers: Modifiers::NONE,
+        };
         let keeps = |event: &Event| embed.keeps(event, &|at| at.x > 50.0);
         assert!(!keeps(&wheel(9.0, Modifiers::NONE)) && !keeps(&wheel(-9.0, Modifiers::NONE)));
         assert!(keeps(&wheel(9.0, Modifiers::CTRL)));
-        assert!(!keeps(&press(10.0)) && !keeps(&moved));
+        assert!(!keeps(&press(10.0)) && keeps(&release));
+        assert!(!keeps(&moved) && !keeps(&release));
         assert!(keeps(&press(60.0)) && keeps(&moved));
         // Contents that are too tall for the frame are scrolled first.
         embed.room.set([0.0, 80.0]);

@@ -11,9 +11,10 @@ use crate::page::{Control, Page, Theme};
 /// helpers of these tests, for which places in the frame are places in the window.
 fn frame(page: &mut Page, width: u32, height: u32, query: &str) {
     page.goto_file("example.html");
-    let script = "document.body.replaceChildren(); \
+    let script = "document.querySelector('main').hidden = true; \
         Object.assign(document.body.style, { margin: 0, maxWidth: 'none', padding: 0 }); \
         const frame = document.createElement('iframe'); \
+        frame.id = 'frame'; \
         Object.assign(frame.style, { position: 'absolute', left: 0, top: 0, border: 0, \
             width: `${arguments[0]}px`, height: `${arguments[1]}px` }); \
         frame.src = arguments[2]; \
@@ -22,7 +23,7 @@ fn frame(page: &mut Page, width: u32, height: u32, query: &str) {
         document.body.append(frame, below);";
     page.script_with(script, vec![json!(width), json!(height), json!(format!("./{query}"))]);
     page.wait("the frame to start", |page| {
-        let ready = "const inner = document.querySelector('iframe').contentWindow; \
+        let ready = "const inner = document.getElementById('frame').contentWindow; \
             if (inner.document?.documentElement.dataset.phase !== 'ready') return false; \
             window.harvester = inner.harvester; return true;";
         (page.script(ready) == true).then_some(())
@@ -129,7 +130,7 @@ fn a_finger_scrolls_the_page_around_and_drags_sliders() {
 
 #[test]
 #[ignore = "needs the built page and Chromium: make test"]
-fn on_a_phone_a_finger_on_a_plot_scrolls_the_page_and_two_zoom_the_plot() {
+fn on_a_phone_a_finger_on_a_plot_scrolls_the_page() {
     let mut page = Page::open(390, 760, Theme::Light);
     page.touches();
     page.reload();
@@ -137,8 +138,9 @@ fn on_a_phone_a_finger_on_a_plot_scrolls_the_page_and_two_zoom_the_plot() {
     let state = page.state();
     let card = |page: &mut Page| page.find("Enlarge: Stability", &["Button"]).bounds[1];
     let before = card(&mut page);
-    page.swipe((200.0, 700.0), (200.0, 300.0));
+    // The browser of this test still claims to have a mouse: the first touch tells otherwise.
     page.wait("the page to scroll", |page| {
+        page.swipe((330.0, 720.0), (330.0, 320.0));
         let controls = page.controls();
         let card = controls.iter().find(|control| control.label.starts_with("Enlarge: Stability"));
         card.is_none_or(|card| card.bounds[1] < before - 150.0).then_some(())
@@ -169,7 +171,7 @@ fn what_an_address_gets_wrong_is_told_and_the_rest_is_shown() {
 fn every_part_fits_into_frames_of_slides() {
     let mut page = Page::open(1000, 700, Theme::Dark);
     let cases = [
-        (640, 360, "verdict,map,phase", "alpha,beta,omega", 2),
+        (800, 450, "verdict,map,phase", "alpha,beta,omega", 2),
         (960, 540, "map,phase,poincare,time,beam", "alpha,beta,omega,modes", 4),
         (360, 640, "chart,multipliers", "omega,force", 2),
         (960, 540, "curves,basins,spectrum,evidence", "", 4),

@@ -11,9 +11,9 @@ fn query(text: &str) -> Option<MediaQueryList> {
     web_sys::window()?.match_media(text).ok().flatten()
 }
 
-/// Whether fingers, rather than a mouse, are what the screen is for.
+/// Whether fingers may be what the screen is for; a mouse that moves says otherwise.
 pub(super) fn has_coarse_pointer() -> bool {
-    query("(pointer: coarse)").is_some_and(|query| query.matches())
+    query("(any-pointer: coarse)").is_some_and(|query| query.matches())
 }
 
 /// Whether high contrast is wished for; looked at once a frame.

@@ -14,7 +14,7 @@ const GAP: f32 = 6.0;
 /// Width from which a slider stands beside another one.
 const SLIDER: f32 = 250.0;
 /// Least size of a panel; a frame without room for it is scrolled.
-const LEAST: egui::Vec2 = vec2(230.0, 170.0);
+const LEAST: egui::Vec2 = vec2(230.0, 160.0);
 /// Width over height that a panel is best seen with.
 const BEST_SHAPE: f32 = 1.35;
 /// What the beam's card needs beside its picture.
