@@ -63,7 +63,6 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             (Series::Fold, "fold"),
         ],
     );
-    crate::app::widgets::swatches(ui, &[(theme::tokens(ui).text_strong, "where they meet")]);
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {

@@ -77,11 +77,11 @@ fn columns(count: usize, room: egui::Vec2) -> usize {
     let badness = |columns: &usize| {
         let rows = count.div_ceil(*columns);
         let size = vec2(room.x / *columns as f32, room.y / rows as f32);
-        let cramped = [size.x < LEAST.x && *columns > 1, size.y < LEAST.y];
+        let too_small = (size.x < LEAST.x && *columns > 1) || size.y < LEAST.y;
         let shape = (size.x / size.y.max(1.0) / BEST_SHAPE).ln().abs();
-        let cramped: f32 = cramped.iter().map(|cramped| f32::from(u8::from(*cramped))).sum();
         // A hole in the last row is worse than a shape that is not the best.
-        shape + 10.0 * cramped + 0.4 * f32::from(u8::from(count % columns != 0))
+        let hole = if count.is_multiple_of(*columns) { 0.0 } else { 0.4 };
+        shape + hole + if too_small { 10.0 } else { 0.0 }
     };
     (1..=count.max(1)).min_by(|a, b| badness(a).total_cmp(&badness(b))).unwrap_or(1)
 }

@@ -138,7 +138,8 @@ pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
             ui.painter().line_segment([left, right], Stroke::new(width, colour));
         }
         Pen::Dashes(width, length) => {
-            let gap = 0.6 * length;
+            // Long ones are cut, so that they end within the sample.
+            let (length, gap) = (length.min(13.0), (0.6 * length).min(4.0));
             ui.painter().extend(Shape::dashed_line(&[left, right], Stroke::new(width, colour), length, gap));
         }
         Pen::Dots(radius, _) => {

@@ -98,8 +98,8 @@ pub fn rule(plot: &mut PlotUi<'_>, upright: bool, name: &str, at: f64, colour: e
 pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [PlotPoint]) {
     let colour = kind.colour(theme::tokens_in(plot.ctx()));
     let (radius, opacity) = match (kind, places.len()) {
-        (Series::Ghost, 0..=40) => (3.0, 0.6),
-        (Series::Ghost, _) => (1.2, 0.5),
+        (Series::Ghost, 0..=40) => (3.5, 0.8),
+        (Series::Ghost, _) => (2.0, 0.6),
         (Series::TheoryPoint, _) => (7.0, 1.0),
         (Series::Reached, _) => (6.5, 1.0),
         (Series::Down, _) => (2.6, 0.8),
@@ -108,6 +108,7 @@ pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [
         (_, 41..=400) => (2.6, 0.9),
         _ => (1.5, 0.75),
     };
+    let opacity = if theme::tokens_in(plot.ctx()).contrast { 1.0 } else { opacity };
     let (pen, shape) = match kind.mark() {
         Pen::Rings(_) => (Pen::Rings(radius), MarkerShape::Circle),
         Pen::Crosses(_) => (Pen::Crosses(radius), MarkerShape::Cross),
