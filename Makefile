@@ -45,23 +45,23 @@ test: ## everything that is checked: format, lints, documentation, tests, page, 
 	@scripts/timed.sh "browser tests" $(MAKE) --no-print-directory page-test
 
 check: ## the part of `make test` that needs no browser
-	cargo fmt --check
-	cargo clippy --locked --quiet --all-targets -- -D warnings $(TESTS_MAY_PANIC)
-	cargo clippy --locked --quiet --all-targets --features app -- -D warnings $(TESTS_MAY_PANIC)
-	cargo clippy --locked --quiet --lib --bins --features app -- -D warnings
-	CLIPPY_CONF_DIR=scripts/wasm cargo clippy --locked --quiet --lib --bins --features app --target wasm32-unknown-unknown -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet --no-deps --features app
-	cargo test --locked --quiet --features app
+	cargo fmt --all --check
+	cargo clippy --workspace --locked --quiet --all-targets -- -D warnings $(TESTS_MAY_PANIC)
+	cargo clippy --workspace --locked --quiet --all-targets --features app -- -D warnings $(TESTS_MAY_PANIC)
+	cargo clippy --workspace --locked --quiet --lib --bins --features app -- -D warnings
+	CLIPPY_CONF_DIR=scripts/wasm cargo clippy --workspace --locked --quiet --lib --bins --features app --target wasm32-unknown-unknown -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --locked --quiet --no-deps --features app
+	cargo test --workspace --locked --quiet --features app
 
 page-test: ## the browser tests on what is in dist/
 	@scripts/tools.sh browser
 	cargo test --locked --quiet --features app --test browser -- --ignored --test-threads=1 --nocapture
 
 bench: ## measurements (minutes)
-	cargo bench --locked
+	cargo bench --workspace --locked
 
 fmt: ## format the sources
-	cargo fmt
+	cargo fmt --all
 
 clean: ## remove what was built; the tools stay
 	rm -rf target dist

@@ -2,29 +2,16 @@
 //! a second, fixed magnet (Zhang & Zhang, "Secondary Resonance Energy Harvesting with Quadratic Nonlinearity",
 //! Materials 2020, 13(15), 3389).
 //!
-//! A tour, in the order of the paper:
-//!
-//! * [`model`] is section 2: the device in SI units and its dimensionless numbers (Eqs. 1-8), the magnet force and
-//!   its equilibrium (Eqs. 11-17), the modes (Eqs. 18-23) and the N-mode system (Eqs. 27-34).
-//! * [`theory`] is sections 3 and 4: the first-order steady state and the stability boundaries as published, and a
-//!   coupled-mode boundary that keeps the electrical circuit the published ones leave out.
-//! * [`dynamics`] integrates: the classical Runge-Kutta run of the paper, and an error-controlled exponential
-//!   collocation that does the same run a thousand times faster.
-//! * [`jobs`] is the one request and answer type that the page, JavaScript and the native command share.
+//! * [`model`], [`theory`], [`dynamics`], [`jobs`] and [`scenario`] are the solver core, a package of its own, so that it
+//!   builds without the rest and compiles for speed while the page compiles for size.
 //! * [`export`] writes plots as SVG and CSV, a report as HTML, and a question as a program.
-//! * [`scenario`] is everything a view depends on, as stored and shared.
 //! * `app` (feature `app`) is the egui front end; it draws what the other modules computed.
 //!
-//! Dependencies point one way: app -> export, jobs -> dynamics, theory -> model. Everything is dimensionless unless a
-//! docstring names a unit; time is counted in units of `sqrt(m_b L^3 / (E I))`, lengths in units of the beam's
-//! length, voltages in volts.
+//! Dependencies point one way: app -> export, jobs -> dynamics, theory -> model.
 
-pub mod dynamics;
+pub use harvester_solver::{dynamics, jobs, model, scenario, theory};
+
 pub mod export;
-pub mod jobs;
-pub mod model;
-pub mod scenario;
-pub mod theory;
 
 #[cfg(feature = "app")]
 pub mod app;

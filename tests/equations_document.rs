@@ -21,7 +21,7 @@ impl Source {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let mut source = Self::default();
         for module in ["model", "theory", "dynamics"] {
-            source.read_folder(&root.join("src").join(module), module)?;
+            source.read_folder(&root.join("solver/src").join(module), module)?;
         }
         for entry in std::fs::read_dir(root.join("tests"))? {
             let path = entry?.path();

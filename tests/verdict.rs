@@ -3,6 +3,7 @@
 #![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
 
 use harvester_lab::dynamics::evidence::Source;
+use harvester_lab::dynamics::rk4::RungeKutta4;
 use harvester_lab::dynamics::verdict::{OtherStart, Warning, force_law_warning};
 use harvester_lab::dynamics::{
     ForcedMotion, Inquiry, Instability, Motion, Orbit, Verdict, largest_multipliers,
@@ -32,6 +33,22 @@ fn sources(verdict: &Verdict) -> Vec<Source> {
     verdict.rests_on.iter().filter(|piece| piece.agrees == Some(true)).map(|piece| piece.source).collect()
 }
 
+/// Root mean square of the voltage (V) over 200 excitation periods, after 8000 of them, from rest by RK4.
+fn settled_voltage(system: &ReducedSystem) -> Answer<f64> {
+    const STEPS: u32 = 400;
+    let mut run = RungeKutta4::new(system, &[0.0; 5], STEPS)?;
+    let mut square = 0.0;
+    for step in 0..8200 * STEPS {
+        if let Some(outcome) = run.step() {
+            return Err(format!("{outcome:?}").into());
+        }
+        if step >= 8000 * STEPS {
+            square += run.state()[4] * run.state()[4];
+        }
+    }
+    Ok((square / f64::from(200 * STEPS)).sqrt())
+}
+
 #[test]
 fn figure_3_is_the_stable_forced_motion() -> TestResult {
     let verdict = Verdict::of(&system(1e-3, 1e-3, 25.0, ForceLaw::Quadratic)?, &[0.0; 5], 600.0)?;
@@ -45,6 +62,23 @@ fn figure_3_is_the_stable_forced_motion() -> TestResult {
     assert!(verdict.multiplier.is_some_and(|multiplier| (multiplier.modulus - 0.996743).abs() < 1e-6));
     // It is that motion, so nothing coexists; and the tip moves too little for a warning.
     assert_eq!((verdict.coexists.len(), verdict.warnings.len()), (0, 0), "{:?}", verdict.warnings);
+    Ok(())
+}
+
+/// Just beyond the first tongue's tip the doubled motion needs thousands of periods to grow, diverging from rest all the
+/// while. RK4 from rest comes to the same voltage.
+#[test]
+fn slow_growth_beyond_a_boundary_is_not_chaos() -> TestResult {
+    for (alpha, beta) in [(1e-4, 5e-4), (1e-4, 6e-4), (1e-3, 8e-4)] {
+        let system = system(alpha, beta, 8.1569, ForceLaw::Quadratic)?;
+        let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+        assert_eq!(verdict.motion, Motion::Periodic { periods: 2 }, "alpha {alpha}, beta {beta}");
+        let forced = verdict.forced.ok_or("forced")?;
+        assert_eq!(forced.instability, Some(Instability::PeriodDoubling));
+        let voltage = settled_voltage(&system)?;
+        let v_rms = verdict.v_rms.ok_or("voltage")?;
+        assert!((v_rms / voltage - 1.0).abs() < 1e-5, "alpha {alpha}, beta {beta}: {v_rms} and {voltage}");
+    }
     Ok(())
 }
 

@@ -3,6 +3,7 @@
 use egui::Color32;
 
 use super::theme::Tokens;
+use crate::app::text::tr;
 use crate::dynamics::Instability;
 use crate::dynamics::motion::Motion;
 
@@ -22,11 +23,11 @@ pub(super) fn instability(kind: Instability, tokens: &Tokens) -> Color32 {
 }
 
 /// The name of an instability's kind.
-pub(super) const fn name(kind: Instability) -> &'static str {
+pub(super) fn name(kind: Instability) -> &'static str {
     match kind {
-        Instability::Fold => "fold",
-        Instability::PeriodDoubling => "period doubling",
-        Instability::NeimarkSacker => "Neimark–Sacker",
+        Instability::Fold => tr("fold"),
+        Instability::PeriodDoubling => tr("period doubling"),
+        Instability::NeimarkSacker => tr("Neimark–Sacker"),
     }
 }
 

@@ -195,6 +195,7 @@ pub const fn tab(panel: Panel) -> Tab {
         | Panel::Spectrum
         | Panel::Evidence => Tab::Stability,
         Panel::OrbitDiagram | Panel::Response => Tab::Sweep,
+        Panel::Oscilloscope | Panel::LivePortrait | Panel::LiveBeam => Tab::Live,
         Panel::Harvest | Panel::Load | Panel::DesignMap | Panel::Measured => Tab::Design,
     }
 }
@@ -210,7 +211,8 @@ pub fn usual(view: &View) -> Vec<usize> {
     if !own.is_empty() {
         return own;
     }
-    let tab_in_view = if matches!(view.tab, Tab::Paper | Tab::Lessons) { Tab::Explore } else { view.tab };
+    let tab_in_view =
+        if matches!(view.tab, Tab::Paper | Tab::Lessons | Tab::Live) { Tab::Explore } else { view.tab };
     let mut first = of(&|panel| tab(panel) == tab_in_view);
     first.truncate(2);
     first

@@ -17,6 +17,7 @@ use super::view::{Panel, Tab, View};
 use super::widgets::number::{exact, round_significant, typographic};
 use super::widgets::{qr_modules, recorder};
 use super::{draw, fonts, questions, theme};
+use crate::app::text::{marked, tr, within};
 use crate::dynamics::Outcome;
 use crate::export::report::{Report, html};
 use crate::export::{Figure, Format, Provenance, svg, table};
@@ -32,20 +33,23 @@ const REPORT_PAGE: [f32; 2] = [1100.0, 980.0];
 const REPORT_ASPECT: f64 = 0.42;
 /// Frames until the plots of a page that was not drawn before have found their bounds.
 const SETTLING: usize = 3;
+/// Letters from here on stay in the names of files: they have no spelling in Latin ones.
+const FIRST_IDEOGRAPH: char = '\u{4e00}';
 /// What is said when there is nothing to save.
-const BUSY: &str = "There is nothing to save yet: it is still being computed, or this view has no plot here.";
+const BUSY: &str =
+    marked("There is nothing to save yet: it is still being computed, or this view has no plot here.");
 
 impl App {
     /// Saves the plots of the card with this title.
     pub(super) fn export(&mut self, context: &Egui, title: &str, format: Format) {
         if self.session.status() != Status::Done {
-            return self.tell(BUSY);
+            return self.tell(tr(BUSY));
         }
         let provenance = self.provenance(&self.view);
         let mut figures = self.figures(&self.view, Some(context));
         figures.retain(|figure| figure.title == title);
         if figures.is_empty() {
-            return self.tell(BUSY);
+            return self.tell(tr(BUSY));
         }
         let name = file_name(title);
         let errand = match format {
@@ -65,7 +69,7 @@ impl App {
                 let name = "harvester-report.html".to_owned();
                 self.errands.push(Errand::Save(name, "text/html;charset=utf-8", html(&report)));
             }
-            None => self.tell(BUSY),
+            None => self.tell(tr(BUSY)),
         }
     }
 
@@ -86,7 +90,7 @@ impl App {
         let mut plots: Vec<Vec<Figure>> = plots.into_iter().map(|figure| vec![figure]).collect();
         for index in 1..plots.len() {
             if plots[index][0].title == plots[index - 1][0].title {
-                plots[index][0].title += ": the end of the run";
+                plots[index][0].title += tr(": the end of the run");
             }
         }
         plots.iter_mut().flatten().for_each(|figure| figure.aspect = REPORT_ASPECT);
@@ -187,6 +191,7 @@ impl App {
                     studies: &crew.studies,
                     bench: &self.bench,
                     course: &self.course,
+                    live: &self.live,
                     address: &self.address,
                     embed: self.embed.as_ref(),
                     steps: (false, false),
@@ -214,10 +219,14 @@ fn file_name(title: &str) -> String {
             .chars()
             .map(|letter| match letter {
                 'é' => "e".to_owned(),
+                'ä' => "ae".to_owned(),
+                'ö' => "oe".to_owned(),
+                'ü' => "ue".to_owned(),
+                'ß' => "ss".to_owned(),
                 'ω' => "omega".to_owned(),
                 '₁' => "1".to_owned(),
                 '₂' => "2".to_owned(),
-                other if other.is_ascii_alphanumeric() => other.to_string(),
+                other if other.is_ascii_alphanumeric() || other >= FIRST_IDEOGRAPH => other.to_string(),
                 _ => String::new(),
             })
             .collect();
@@ -238,26 +247,26 @@ fn device_rows(view: &View) -> Vec<[String; 3]> {
         let value = if value.is_finite() {
             format!("{} {unit}", typographic(&exact(round_significant(value, 5))))
         } else {
-            "open circuit".to_owned()
+            tr("open circuit").to_owned()
         };
         let whose = match dimension {
-            Dimension::MagnetLength | Dimension::MagnetRadius | Dimension::MagnetArea => "Magnet ",
-            Dimension::BeamLength | Dimension::BeamMass => "Beam ",
-            Dimension::CeramicThickness => "Ceramic ",
+            Dimension::MagnetLength | Dimension::MagnetRadius | Dimension::MagnetArea => tr("Magnet "),
+            Dimension::BeamLength | Dimension::BeamMass => tr("Beam "),
+            Dimension::CeramicThickness => tr("Ceramic "),
             _ => "",
         };
-        let name = if whose.is_empty() { name.to_owned() } else { whose.to_owned() + &name.to_lowercase() };
+        let name = if whose.is_empty() { name.to_owned() } else { whose.to_owned() + &within(name) };
         [name, symbol.to_owned(), value]
     };
     let mut rows: Vec<[String; 3]> = Dimension::ALL.iter().map(row).collect();
     let magnets = match (view.scenario.parameters.c0 == 0.0, found.repelling) {
-        (true, _) => "none",
-        (false, true) => "repelling",
-        (false, false) => "attracting",
+        (true, _) => tr("none"),
+        (false, true) => tr("repelling"),
+        (false, false) => tr("attracting"),
     };
-    rows.push(["Magnets".to_owned(), String::new(), magnets.to_owned()]);
+    rows.push([tr("Magnets").to_owned(), String::new(), magnets.to_owned()]);
     rows.push([
-        "Base acceleration".to_owned(),
+        tr("Base acceleration").to_owned(),
         String::new(),
         format!("{} g", typographic(&exact(round_significant(found.acceleration(), 4)))),
     ]);

@@ -1,5 +1,6 @@
 //! The figures of the paper: their parameters, their time windows, and what the paper says of them.
 
+use crate::app::text::marked;
 use crate::model::{ParameterSet, ReducedSystem};
 use crate::scenario::{ModelChoice, Scenario};
 use crate::theory::Resonance;
@@ -87,99 +88,115 @@ const CASE_2: (f64, f64) = (1e-4, 1e-2);
 pub(super) const FIGURES: [Figure; 11] = [
     boundaries(
         2,
-        "Stability boundary, ω ≈ ω₁+ω₂",
+        marked("Stability boundary, ω ≈ ω₁+ω₂"),
         Resonance::Sum,
         [0.0, 0.001, 0.002, 0.003],
         ("S₀", 25.0),
-        "Eq. 57 for four dampings: the combination resonance needs small damping, a large excitation and a frequency \
-         close to the sum. S₀ is stable.",
+        marked(
+            "Eq. 57 for four dampings: the combination resonance needs small damping, a large excitation and a frequency \
+             close to the sum. S₀ is stable.",
+        ),
     ),
     response(
         3,
-        "Periodic response, ω = 25",
+        marked("Periodic response, ω = 25"),
         CASE_1,
         Frequency::At(25.0),
         60.0,
         [600.0, 602.0],
-        "At S₀ the response is periodic with the period of the excitation; theory (59) and computation nearly agree.",
+        marked(
+            "At S₀ the response is periodic with the period of the excitation; theory (59) and computation nearly agree.",
+        ),
     ),
     response(
         4,
-        "Quasiperiodic response, ω = ω₁+ω₂",
+        marked("Quasiperiodic response, ω = ω₁+ω₂"),
         CASE_2,
         Frequency::Sum,
         60.0,
         [600.0, 605.0],
-        "Small damping and large excitation at the sum of the frequencies: the motion is not periodic, and the \
-         Poincaré map shows a closed curve.",
+        marked(
+            "Small damping and large excitation at the sum of the frequencies: the motion is not periodic, and the \
+             Poincaré map shows a closed curve.",
+        ),
     ),
     response(
         5,
-        "Small periodic response, ω = ω₂−ω₁",
+        marked("Small periodic response, ω = ω₂−ω₁"),
         CASE_1,
         Frequency::Difference,
         60.0,
         [600.0, 602.0],
-        "At the difference of the frequencies the response stays periodic: there is no difference resonance.",
+        marked(
+            "At the difference of the frequencies the response stays periodic: there is no difference resonance.",
+        ),
     ),
     response(
         6,
-        "Large periodic response, ω = ω₂−ω₁",
+        marked("Large periodic response, ω = ω₂−ω₁"),
         CASE_2,
         Frequency::Difference,
         60.0,
         [600.0, 602.0],
-        "The same with ten times the excitation and a tenth of the damping: still periodic.",
+        marked("The same with ten times the excitation and a tenth of the damping: still periodic."),
     ),
     boundaries(
         7,
-        "Stability boundary, ω ≈ 2ω₁",
+        marked("Stability boundary, ω ≈ 2ω₁"),
         Resonance::First,
         [0.0, 0.001, 0.002, 0.003],
         ("S₁", 8.0),
-        "Eq. 72 for four dampings: near twice the first frequency stability strongly depends on the damping. S₁ is \
-         stable.",
+        marked(
+            "Eq. 72 for four dampings: near twice the first frequency stability strongly depends on the damping. S₁ is \
+             stable.",
+        ),
     ),
     response(
         8,
-        "Periodic response, ω = 8",
+        marked("Periodic response, ω = 8"),
         CASE_1,
         Frequency::At(8.0),
         80.0,
         [600.0, 604.0],
-        "At S₁ the response has the period of the excitation; both methods give almost the same map.",
+        marked("At S₁ the response has the period of the excitation; both methods give almost the same map."),
     ),
     response(
         9,
-        "Period-doubled motion, ω = 2ω₁",
+        marked("Period-doubled motion, ω = 2ω₁"),
         CASE_2,
         Frequency::TwiceFirst,
         120.0,
         [600.0, 608.0],
-        "In the unstable region the steady state has twice the period of the excitation: two points in the Poincaré \
-         map.",
+        marked(
+            "In the unstable region the steady state has twice the period of the excitation: two points in the Poincaré \
+             map.",
+        ),
     ),
     boundaries(
         10,
-        "Stability boundary, ω ≈ 2ω₂",
+        marked("Stability boundary, ω ≈ 2ω₂"),
         Resonance::Second,
         [0.0, 1e-4, 2e-4, 3e-4],
         ("S₂", 43.0),
-        "Eq. 81 for four dampings: the second subharmonic resonance needs extremely small damping. S₂ is stable.",
+        marked(
+            "Eq. 81 for four dampings: the second subharmonic resonance needs extremely small damping. S₂ is stable.",
+        ),
     ),
     response(
         11,
-        "Periodic response, ω = 43",
+        marked("Periodic response, ω = 43"),
         CASE_1,
         Frequency::At(43.0),
         40.0,
         [600.0, 601.0],
-        "At S₂ the response has the period of the excitation.",
+        marked("At S₂ the response has the period of the excitation."),
     ),
     Figure {
         number: 12,
-        title: "Growth without bound, ω = 2ω₂",
-        paper: "The output voltage grows without bound, taken as proof of the second subharmonic resonance.",
+        title: marked("Growth without bound, ω = 2ω₂"),
+        paper: marked(
+            "The output voltage grows without bound, taken as proof of the second subharmonic resonance.",
+        ),
         kind: Kind::Response {
             alpha: CASE_2.0,
             beta: CASE_2.1,

@@ -8,6 +8,7 @@ pub mod bridge;
 pub mod fonts;
 pub mod lessons;
 pub mod link;
+mod live;
 pub mod text;
 pub mod theme;
 pub mod view;
@@ -46,11 +47,13 @@ use command::{Command, Commands};
 use crew::Crew;
 use embed::Embed;
 use lessons::Course;
+use live::Live;
 use panels::Context;
 use session::{Session, Status};
 use sharing::Errand;
 use view::{MapWindow, Tab, View};
 
+use crate::app::text::tr;
 use crate::export::Format;
 
 /// Width of the left column, of that with units beside the numbers, and page width below which the columns are stacked.
@@ -65,6 +68,7 @@ pub struct App {
     crew: Rc<RefCell<Crew>>,
     bench: Bench,
     course: Course,
+    live: Live,
     notice: Option<String>,
     history: history::History<steps::Moment>,
     /// What the address asks to be shown of the page; all of it when absent.
@@ -89,7 +93,7 @@ impl App {
         let mut session = Session::default();
         session.ask(&view.scenario);
         let (bench, course) = (Bench::default(), Course::restore(stored));
-        let history = history::History::default();
+        let (history, live) = (history::History::default(), Live::default());
         let (address, errands, exports) = (String::new(), Vec::new(), Vec::new());
         let mut app = Self {
             view,
@@ -97,6 +101,7 @@ impl App {
             crew,
             bench,
             course,
+            live,
             notice,
             history,
             embed: None,
@@ -112,7 +117,10 @@ impl App {
 
     /// Work that goes on while the page is hidden.
     pub fn logic(&mut self, context: &egui::Context) {
-        self.session.work();
+        // Where time goes on, the frame is its own while the hand moves.
+        if self.view.tab != Tab::Live || !context.input(|input| input.pointer.any_down()) {
+            self.session.work();
+        }
         self.study(context);
         self.check_goal(context);
         if self.bench.measured.work() {
@@ -186,6 +194,7 @@ impl App {
         let mut commands = Commands::new();
         let hand = steps::hand(ui.ctx());
         self.history.begin_frame(hand);
+        self.go_on(ui.ctx());
         let (pinned, dark) = (self.session.pinned.is_some(), theme::tokens(ui).dark);
         keyboard::shortcuts(ui.ctx(), &self.view, pinned, dark, &mut commands);
         if self.embed.is_some() {
@@ -200,6 +209,7 @@ impl App {
             studies: &crew.studies,
             bench: &self.bench,
             course: &self.course,
+            live: &self.live,
             address: &self.address,
             embed: self.embed.as_ref(),
             steps: self.history.can(),
@@ -221,6 +231,14 @@ impl App {
         ui.ctx().request_repaint();
     }
 
+    /// Lets the live run go on and be heard.
+    fn go_on(&mut self, context: &egui::Context) {
+        if self.live.frame(context.input(|input| input.time), &self.view) {
+            context.request_repaint();
+        }
+        self.errands.extend(self.live.chunk().map(Errand::Sound));
+    }
+
     fn carry_out(&mut self, command: Command) {
         match command {
             Command::Show(scenario) => self.show(*scenario),
@@ -233,6 +251,13 @@ impl App {
             Command::Sweep(sweep) => self.view.sweep = sweep,
             Command::OpenPlane(plane) => self.view.plane = plane,
             Command::Design(design) => self.view.design = *design,
+            Command::LookLive(live) => self.view.live = live,
+            Command::Live(action) => {
+                self.live.act(action, &self.view, &self.session);
+                if !self.live.sounds() {
+                    self.errands.push(Errand::Sound(Vec::new()));
+                }
+            }
             Command::Adopt(Ok(scenario)) => self.show(*scenario),
             Command::Adopt(Err(reason)) => self.bench.refusal = Some(reason),
             Command::Lesson(action) => self.follow_lesson(action),
@@ -411,6 +436,7 @@ fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
 fn draw_tab(context: &mut Context<'_>, ui: &mut Ui) {
     match context.view.tab {
         Tab::Explore => panels::explore::show(context, ui),
+        Tab::Live => panels::live::show(context, ui),
         Tab::Stability => panels::stability::show(context, ui),
         Tab::Sweep => panels::sweep::show(context, ui),
         Tab::Design => panels::design::show(context, ui),
@@ -423,7 +449,7 @@ fn draw_notice(context: &mut Context<'_>, ui: &mut Ui, message: &str) {
     let tokens = theme::tokens(ui);
     egui::Frame::new().fill(tokens.card).corner_radius(theme::radius::CARD).inner_margin(10).show(ui, |ui| {
         ui.horizontal(|ui| {
-            if widgets::icon_button(ui, widgets::Icon::Close, "Dismiss").clicked() {
+            if widgets::icon_button(ui, widgets::Icon::Close, tr("Dismiss")).clicked() {
                 context.commands.push(Command::DismissNotice);
             }
             ui.add(egui::Label::new(egui::RichText::new(message).color(tokens.warning)).wrap());

@@ -3,6 +3,7 @@
 use super::map::Boundaries;
 use super::session::Shown;
 use super::widgets::number::{significant, with_unit};
+use crate::app::text::{fill, motion_in_words, reworded, tr};
 use crate::dynamics::motion::Motion;
 use crate::dynamics::verdict::{ForcedSummary, Verdict, Warning, force_law_warning};
 use crate::dynamics::{Instability, Outcome};
@@ -44,13 +45,13 @@ impl Reading {
         match verdict {
             Some(verdict) => {
                 remarks.extend(verdict.forced.as_ref().and_then(|forced| forced_motion(forced, verdict)));
-                remarks.extend(verdict.coexists.iter().map(ToString::to_string));
+                remarks.extend(verdict.coexists.iter().map(|other| reworded(&other.to_string())));
                 remarks.extend(disagreement(verdict));
-                remarks.extend(verdict.warnings.iter().map(ToString::to_string));
+                remarks.extend(verdict.warnings.iter().map(|warning| reworded(&warning.to_string())));
             }
             None => {
                 remarks.extend(settling(shown));
-                remarks.extend(force_law(shown).map(|warning| warning.to_string()));
+                remarks.extend(force_law(shown).map(|warning| reworded(&warning.to_string())));
             }
         }
         remarks.extend(boundaries.and_then(|boundaries| theories(shown, boundaries)));
@@ -63,21 +64,27 @@ fn first_look(shown: &Shown) -> (Tone, String) {
     match (shown.run.outcome(), shown.run.recurrence.map(|found| found.period)) {
         (Outcome::Escaped { time }, _) => headline(Motion::Escape { time }),
         (Outcome::Contact { time }, _) => headline(Motion::Contact { time }),
-        (Outcome::Completed, None) => (Tone::Plain, "Too short to classify".to_owned()),
+        (Outcome::Completed, None) => (Tone::Plain, tr("Too short to classify").to_owned()),
         (Outcome::Completed, Some(Some(periods))) => headline(Motion::Periodic { periods }),
-        (Outcome::Completed, Some(None)) => (Tone::Notable, "Not periodic".to_owned()),
+        (Outcome::Completed, Some(None)) => (Tone::Notable, tr("Not periodic").to_owned()),
     }
 }
 
 fn headline(motion: Motion) -> (Tone, String) {
     match motion {
-        Motion::Periodic { periods: 1 } => (Tone::Plain, "Period 1".to_owned()),
-        Motion::Periodic { periods } => (Tone::Notable, format!("Period {periods}")),
-        Motion::Quasiperiodic => (Tone::Notable, "Quasiperiodic: a torus".to_owned()),
-        Motion::Chaotic => (Tone::Notable, "Chaotic".to_owned()),
-        Motion::Escape { time } => (Tone::Alarming, format!("Escape at t = {}", significant(time, 4))),
-        Motion::Contact { time } => (Tone::Alarming, format!("Contact at t = {}", significant(time, 4))),
-        Motion::Undecided { why } => (Tone::Notable, format!("Undecided: {why}")),
+        Motion::Periodic { periods: 1 } => (Tone::Plain, tr("Period 1").to_owned()),
+        Motion::Periodic { periods } => (Tone::Notable, fill("Period {periods}", &[("periods", &periods)])),
+        Motion::Quasiperiodic => (Tone::Notable, tr("Quasiperiodic: a torus").to_owned()),
+        Motion::Chaotic => (Tone::Notable, tr("Chaotic").to_owned()),
+        Motion::Escape { time } => {
+            (Tone::Alarming, fill("Escape at t = {time}", &[("time", &significant(time, 4))]))
+        }
+        Motion::Contact { time } => {
+            (Tone::Alarming, fill("Contact at t = {time}", &[("time", &significant(time, 4))]))
+        }
+        Motion::Undecided { why } => {
+            (Tone::Notable, fill("Undecided: {why}", &[("why", &reworded(&why.to_string()))]))
+        }
     }
 }
 
@@ -86,9 +93,9 @@ fn resonance(shown: &Shown, boundaries: Option<&Boundaries>, verdict: Option<&Ve
     let motion = verdict?.motion;
     let near = boundaries?.resonance_near(shown.run.system.parameters.omega)?;
     let name = match (motion, near) {
-        (Motion::Periodic { periods }, Resonance::First) if periods % 2 == 0 => "subharmonic of mode 1",
-        (Motion::Periodic { periods }, Resonance::Second) if periods % 2 == 0 => "subharmonic of mode 2",
-        (Motion::Quasiperiodic, Resonance::Sum) => "combination of modes 1 and 2",
+        (Motion::Periodic { periods }, Resonance::First) if periods % 2 == 0 => tr("subharmonic of mode 1"),
+        (Motion::Periodic { periods }, Resonance::Second) if periods % 2 == 0 => tr("subharmonic of mode 2"),
+        (Motion::Quasiperiodic, Resonance::Sum) => tr("combination of modes 1 and 2"),
         _ => return None,
     };
     Some(name.to_owned())
@@ -96,7 +103,7 @@ fn resonance(shown: &Shown, boundaries: Option<&Boundaries>, verdict: Option<&Ve
 
 fn multiplier(verdict: &Verdict) -> Option<String> {
     let found = verdict.multiplier?;
-    Some(format!("largest multiplier {}", significant(found.modulus, 4)))
+    Some(fill("largest multiplier {modulus}", &[("modulus", &significant(found.modulus, 4))]))
 }
 
 fn measured(shown: &Shown, verdict: Option<&Verdict>) -> Vec<String> {
@@ -104,7 +111,7 @@ fn measured(shown: &Shown, verdict: Option<&Verdict>) -> Vec<String> {
         (Some(summary), Outcome::Completed) => summary,
         // Voltages of a tip that has flown off mean nothing.
         (_, Outcome::Escaped { .. }) => {
-            return vec!["the tip left over the truncated force's barrier".to_owned()];
+            return vec![tr("the tip left over the truncated force's barrier").to_owned()];
         }
         _ => return Vec::new(),
     };
@@ -112,12 +119,15 @@ fn measured(shown: &Shown, verdict: Option<&Verdict>) -> Vec<String> {
     let v_rms = verdict.and_then(|verdict| verdict.v_rms).unwrap_or(summary.v_rms);
     let lowest = verdict.and_then(|verdict| verdict.tip_over_gap).map(|(low, _)| low);
     let lowest = lowest.unwrap_or(summary.tip_min / system.equilibrium.gap);
-    let mut facts = vec![format!("{} V rms", significant(v_rms, 3))];
+    let mut facts = vec![fill("{volts} V rms", &[("volts", &significant(v_rms, 3))])];
     let kappa = system.parameters.kappa;
     if kappa > 0.0 {
         facts.push(with_unit(shown.scenario.units().watts(kappa * v_rms * v_rms), "W"));
     }
-    facts.push(format!("tip closes {} % of the gap", significant((-100.0 * lowest).max(0.0), 2)));
+    facts.push(fill(
+        "tip closes {percent} % of the gap",
+        &[("percent", &significant((-100.0 * lowest).max(0.0), 2))],
+    ));
     facts
 }
 
@@ -126,23 +136,37 @@ fn forced_motion(forced: &ForcedSummary, verdict: &Verdict) -> Option<String> {
     if forced.stable {
         // Said by what coexists, or the motion reached is the forced one.
         return (verdict.motion != Motion::Periodic { periods: 1 }).then(|| {
-            format!("the forced motion is stable (|μ| = {})", significant(forced.multiplier.modulus, 4))
+            fill(
+                "the forced motion is stable (|μ| = {modulus})",
+                &[("modulus", &significant(forced.multiplier.modulus, 4))],
+            )
         });
     }
     let how = match forced.instability? {
-        Instability::Fold => "fold",
-        Instability::PeriodDoubling => "period doubling",
-        Instability::NeimarkSacker => "Neimark–Sacker",
+        Instability::Fold => tr("fold"),
+        Instability::PeriodDoubling => tr("period doubling"),
+        Instability::NeimarkSacker => tr("Neimark–Sacker"),
     };
-    let from =
-        forced.unstable_from.map_or(String::new(), |beta| format!(" from β = {}", significant(beta, 3)));
     let modulus = significant(forced.multiplier.modulus, 4);
-    Some(format!("the forced motion is unstable{from}: {how}, |μ| = {modulus}"))
+    Some(match forced.unstable_from {
+        Some(beta) => fill(
+            "the forced motion is unstable from β = {beta}: {how}, |μ| = {modulus}",
+            &[("beta", &significant(beta, 3)), ("how", &how), ("modulus", &modulus)],
+        ),
+        None => fill(
+            "the forced motion is unstable: {how}, |μ| = {modulus}",
+            &[("how", &how), ("modulus", &modulus)],
+        ),
+    })
 }
 
 fn disagreement(verdict: &Verdict) -> Option<String> {
-    (!verdict.disagreeing.is_empty())
-        .then(|| format!("by the run alone: {}; other evidence contradicts it", verdict.suspected))
+    (!verdict.disagreeing.is_empty()).then(|| {
+        fill(
+            "by the run alone: {motion}; other evidence contradicts it",
+            &[("motion", &motion_in_words(verdict.suspected))],
+        )
+    })
 }
 
 fn settling(shown: &Shown) -> Option<String> {
@@ -150,8 +174,10 @@ fn settling(shown: &Shown) -> Option<String> {
     let percent = significant(100.0 * found.defect, 2);
     match (found.period, found.settled) {
         (Some(_), true) => None,
-        (Some(_), false) => Some(format!("still settling: {percent} % from repeating")),
-        (None, _) => Some("stroboscopic points do not repeat within 8 periods".to_owned()),
+        (Some(_), false) => {
+            Some(fill("still settling: {percent} % from repeating", &[("percent", &percent)]))
+        }
+        (None, _) => Some(tr("stroboscopic points do not repeat within 8 periods").to_owned()),
     }
 }
 
@@ -160,13 +186,16 @@ fn theories(shown: &Shown, boundaries: &Boundaries) -> Option<String> {
     let p = &shown.run.system.parameters;
     let resonance = boundaries.resonance_near(p.omega)?;
     let word = |boundary: Option<f64>| match boundary {
-        Some(beta) if p.beta > beta => format!("unstable from β = {}", significant(beta, 3)),
-        Some(beta) => format!("stable up to β = {}", significant(beta, 3)),
-        None => "stable".to_owned(),
+        Some(beta) if p.beta > beta => fill("unstable from β = {beta}", &[("beta", &significant(beta, 3))]),
+        Some(beta) => fill("stable up to β = {beta}", &[("beta", &significant(beta, 3))]),
+        None => tr("stable").to_owned(),
     };
     let published = boundaries.published.as_ref()?.boundary(resonance, p.omega);
     let coupled = boundaries.coupled.as_ref()?.boundary(resonance, p.omega);
-    Some(format!("published theory: {}; coupled modes: {}", word(published), word(coupled)))
+    Some(fill(
+        "published theory: {published}; coupled modes: {coupled}",
+        &[("published", &word(published)), ("coupled", &word(coupled))],
+    ))
 }
 
 /// How wrong a truncated force law is where the tip comes closest to the magnet.

@@ -5,6 +5,7 @@ use super::lessons::course;
 use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
+use crate::app::text::{fill, reworded, tr};
 
 /// Name of saved files.
 const FILE_NAME: &str = "harvester-scenario.json";
@@ -14,12 +15,14 @@ const LARGEST_FILE: usize = 1 << 20;
 const LOOKS: [&str; 4] = ["dark", "contrast", "projector", "beam_moves"];
 
 /// What only the browser can do.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Errand {
     /// Save a text as a file of this name and type.
     Save(String, &'static str, String),
     /// Make a picture of this drawing with so many times its pixels, and save it under this name.
     Picture(String, String, u8),
+    /// Let these samples between -1 and 1 be heard after those before them; none ends the sound.
+    Sound(Vec<f32>),
     /// Ask for a file, and pass it to [`App::open_file`].
     Open,
 }
@@ -74,7 +77,10 @@ impl App {
                 self.replace(view, false);
             }
             Err(reason) => {
-                self.notice = Some(format!("{name} could not be opened: {reason}. Nothing was changed."));
+                self.notice = Some(fill(
+                    "{name} could not be opened: {reason}. Nothing was changed.",
+                    &[("name", &name), ("reason", &reworded(&reason))],
+                ));
             }
         }
     }
@@ -89,12 +95,12 @@ impl App {
 
     fn read_file(&self, bytes: Vec<u8>) -> Result<View, String> {
         if bytes.len() > LARGEST_FILE {
-            return Err("it is too large for a scenario".to_owned());
+            return Err(tr("it is too large for a scenario").to_owned());
         }
-        let text = String::from_utf8(bytes).map_err(|_| "it is not a text".to_owned())?;
+        let text = String::from_utf8(bytes).map_err(|_| tr("it is not a text").to_owned())?;
         let text = text.trim_start_matches('\u{feff}');
         if !text.trim_start().starts_with('{') {
-            return Err("it is not a scenario, which begins with {".to_owned());
+            return Err(tr("it is not a scenario, which begins with {").to_owned());
         }
         Ok(View::read(text, &self.view)?.with_looks_of(&self.view))
     }

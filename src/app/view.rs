@@ -1,13 +1,16 @@
 //! What the user chose: the scenario and how it is looked at. This is what the page remembers.
 
 pub mod design;
+pub mod live;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::design::DesignView;
+use self::live::LiveView;
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
+use crate::app::text::{fill, marked};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::study::curves;
 use crate::jobs::study::sweep::COUNTS;
@@ -22,6 +25,8 @@ pub enum Tab {
     /// The four linked plots.
     #[default]
     Explore,
+    /// A run in which time goes on.
+    Live,
     /// Charts, multipliers, basins.
     Stability,
     /// Orbit diagrams and response curves.
@@ -36,13 +41,14 @@ pub enum Tab {
 
 impl Tab {
     /// All of them in their order, with their names.
-    pub const NAMED: [(Self, &'static str); 6] = [
-        (Self::Explore, "Explore"),
-        (Self::Stability, "Stability"),
-        (Self::Sweep, "Sweep"),
-        (Self::Design, "Design"),
-        (Self::Paper, "Paper"),
-        (Self::Lessons, "Lessons"),
+    pub const NAMED: [(Self, &'static str); 7] = [
+        (Self::Explore, marked("Explore")),
+        (Self::Live, marked("Live")),
+        (Self::Stability, marked("Stability")),
+        (Self::Sweep, marked("Sweep")),
+        (Self::Design, marked("Design")),
+        (Self::Paper, marked("Paper")),
+        (Self::Lessons, marked("Lessons")),
     ];
 }
 
@@ -133,6 +139,12 @@ pub enum Panel {
     DesignMap,
     /// Measured data.
     Measured,
+    /// Live trace over time.
+    Oscilloscope,
+    /// Live phase portrait.
+    LivePortrait,
+    /// Live beam.
+    LiveBeam,
 }
 
 /// What is swept, and how.
@@ -201,6 +213,8 @@ pub struct View {
     pub plane: [Parameter; 2],
     /// The Design tab.
     pub design: DesignView,
+    /// The Live tab.
+    pub live: LiveView,
     /// The running lesson.
     pub lesson: Option<LessonId>,
     /// Its step, from 1; the last one when there are fewer.
@@ -224,6 +238,7 @@ impl Default for View {
             sweep: SweepView::default(),
             plane: [Parameter::Omega, Parameter::Beta],
             design: DesignView::default(),
+            live: LiveView::default(),
             lesson: None,
             step: 1,
         }
@@ -279,6 +294,7 @@ impl View {
         }
         dwell.validate().map_err(part("sweep"))?;
         self.design.check().map_err(part("design"))?;
+        self.live.check().map_err(part("live"))?;
         if !(1..=STEPS).contains(&self.step) {
             let (field, value) = ("step", self.step);
             return Err(part(field)(ModelError::Count { field, value, minimum: 1, maximum: STEPS }));
@@ -303,8 +319,10 @@ impl View {
         match Self::read(text, &Self::default()) {
             Ok(view) => (view, None),
             Err(reason) => {
-                let message =
-                    format!("The stored state could not be used ({reason}); this is a fresh start.");
+                let message = fill(
+                    "The stored state could not be used ({reason}); this is a fresh start.",
+                    &[("reason", &reason)],
+                );
                 (Self::default(), Some(message))
             }
         }

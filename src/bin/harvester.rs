@@ -14,7 +14,8 @@ const USAGE: &str = "usage: harvester < request.json > answer.json
 
 One JSON request on standard input, one JSON answer on standard output, for example
   echo '{\"task\":\"modes\"}' | harvester
-Tasks: modes, boundary, simulate, orbit, chart, sweep, verdict, basin. The README describes their fields.
+Tasks: modes, boundary, simulate, orbit, chart, sweep, verdict, basin, harvest, load, materials, limits, trust, find.
+The README describes their fields.
 
   --batch    one request a line, one answer a line in the same order, on all cores;
              a bad line is answered with {\"error\": ...}

@@ -10,6 +10,7 @@ mod failure;
 mod firefox;
 mod keyboard;
 mod lessons;
+mod live;
 mod mirror;
 mod offline;
 mod page;

@@ -3,6 +3,7 @@
 use egui_plot::PlotPoint;
 
 use crate::app::clock::milliseconds;
+use crate::app::text::reworded;
 use crate::jobs::design::measured::{Columns, Import, Layout, MeasuredError, detect};
 use crate::jobs::design::thin::{Thinner, extent};
 
@@ -64,7 +65,7 @@ impl Measured {
     pub(in crate::app) fn open(&mut self, name: &str, text: Vec<u8>) {
         *self = Self::default();
         match detect(&text) {
-            Err(error) => self.error = Some(format!("{name}: {error}")),
+            Err(error) => self.error = Some(format!("{name}: {}", reworded(&error.to_string()))),
             Ok(layout) => {
                 let domain = domain_of(&layout);
                 let x_unit = unit_of(&layout, 0, &[("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("khz", 1e3)]);
@@ -131,7 +132,7 @@ impl Measured {
     fn fail(&mut self, error: &MeasuredError) {
         if let Some(file) = &mut self.file {
             file.import = None;
-            self.error = Some(format!("{}: {error}", file.name));
+            self.error = Some(format!("{}: {}", file.name, reworded(&error.to_string())));
         }
     }
 }

@@ -22,6 +22,10 @@ pub(super) fn run(errand: &Errand) {
             wasm_bindgen_futures::spawn_local(picture(name.clone(), drawing.clone(), *scale));
             Some(())
         }
+        Errand::Sound(samples) => {
+            shell::play(samples, crate::app::live::RATE);
+            Some(())
+        }
         Errand::Open => open(),
     };
 }

@@ -16,6 +16,7 @@ use std::fmt;
 use serde_json::Value;
 
 use super::view::View;
+use crate::app::text::{fill, reworded};
 use crate::scenario::Scenario;
 pub use entry::{edit, entries};
 use field::{Field, fields};
@@ -51,7 +52,7 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{} = {} ({})", self.name, self.value, self.reason)
+        write!(formatter, "{} = {} ({})", self.name, self.value, reworded(&self.reason))
     }
 }
 
@@ -62,9 +63,9 @@ pub fn complaint(problems: &[Problem]) -> Option<String> {
     }
     let mut named: Vec<String> = problems.iter().take(SHOWN_PROBLEMS).map(Problem::to_string).collect();
     if problems.len() > SHOWN_PROBLEMS {
-        named.push(format!("and {} more", problems.len() - SHOWN_PROBLEMS));
+        named.push(fill("and {more} more", &[("more", &(problems.len() - SHOWN_PROBLEMS))]));
     }
-    Some(format!("Not everything in this link could be used: {}.", named.join("; ")))
+    Some(fill("Not everything in this link could be used: {problems}.", &[("problems", &named.join("; "))]))
 }
 
 /// The view as a fragment, without the `#`.

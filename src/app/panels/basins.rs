@@ -4,6 +4,8 @@ use egui::{Color32, Id, RichText, Ui};
 use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
+use crate::app::panels::computing;
+use crate::app::text::{fill, motion_in_words, tr};
 use crate::app::theme::{self, Tokens};
 use crate::app::view::Panel;
 use crate::app::widgets::number::{round_significant, significant};
@@ -23,10 +25,10 @@ const LIST_WIDTH: f32 = 190.0;
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.basin.study() {
-        Some(basin) if !basin.finished() => format!("computing {:.0} %", 100.0 * basin.progress()),
-        _ => "click to start there".to_owned(),
+        Some(basin) if !basin.finished() => computing(basin.progress()),
+        _ => tr("click to start there").to_owned(),
     };
-    context.plot_card(ui, Panel::Basins, "Basins of attraction", &hint, |context, ui| {
+    context.plot_card(ui, Panel::Basins, tr("Basins of attraction"), &hint, |context, ui| {
         let Some(basin) = context.studies.basin.study() else { return };
         let attractors = basin.attractors();
         if ui.available_width() < BESIDE {
@@ -55,17 +57,17 @@ fn colour(attractor: &Attractor, tokens: &Tokens) -> Color32 {
 /// What it is, without what differs from start to start.
 fn name(attractor: &Attractor) -> String {
     match attractor.cell.motion {
-        Motion::Escape { .. } => "escape".to_owned(),
-        Motion::Contact { .. } => "contact".to_owned(),
-        Motion::Undecided { .. } => "undecided".to_owned(),
-        motion => format!("{motion}, {} V", significant(attractor.cell.v_rms, 3)),
+        Motion::Escape { .. } => tr("escape").to_owned(),
+        Motion::Contact { .. } => tr("contact").to_owned(),
+        Motion::Undecided { .. } => tr("undecided").to_owned(),
+        motion => format!("{}, {} V", motion_in_words(motion), significant(attractor.cell.v_rms, 3)),
     }
 }
 
 /// The attractors found, most frequent first; a click starts on one.
 fn list(context: &mut Context<'_>, ui: &mut Ui, attractors: &[Attractor]) {
     let tokens = theme::tokens(ui);
-    ui.label(RichText::new("share of the starts").small().color(tokens.text_weak));
+    ui.label(RichText::new(tr("share of the starts")).small().color(tokens.text_weak));
     for attractor in attractors.iter().take(LISTED) {
         let share = format!("{} %", significant(100.0 * attractor.fraction, 3));
         let name = name(attractor);
@@ -75,7 +77,7 @@ fn list(context: &mut Context<'_>, ui: &mut Ui, attractors: &[Attractor]) {
         }
     }
     if let Some(more) = attractors.len().checked_sub(LISTED).filter(|more| *more > 0) {
-        ui.label(RichText::new(format!("and {more} more")).small().color(tokens.text_weak));
+        ui.label(RichText::new(fill("and {more} more", &[("more", &more)])).small().color(tokens.text_weak));
     }
 }
 
@@ -89,7 +91,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
         let attractor = cell.and_then(|index| attractors.get(index));
         Some(attractor.map_or(tokens.inset, |attractor| colour(attractor, tokens).gamma_multiply(0.8)))
     });
-    let (x, y) = (Axis::new("start", "q₁"), Axis::new("", "dq₁/dt"));
+    let (x, y) = (Axis::new(tr("start"), "q₁"), Axis::new("", "dq₁/dt"));
     let start = start(&context.view.scenario);
     let here = [start[question.x.0], start[question.y.0]];
     let shown = plot_style::plot(ui, "basins", &x, &y)
@@ -107,7 +109,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
                     basin.chart().cell(column, row)?;
                     attractors.get(basin.shown(column, row)??).map(name)
                 };
-                recorder::cells(plot, "motion reached", question.size, [x, y], &value);
+                recorder::cells(plot, tr("motion reached"), question.size, [x, y], &value);
             }
             let places: Vec<(String, PlotPoint)> = attractors
                 .iter()
@@ -121,7 +123,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
                 plot_style::special_point(plot, name, *place);
             }
         });
-    let drag = plot_style::operating_point(ui, &shown, "Start", here);
+    let drag = plot_style::operating_point(ui, &shown, tr("Start"), here);
     if let Some([q, rate]) = drag.moved {
         let (i, j) = (question.x.0, question.y.0);
         context.edit(|scenario| {

@@ -6,6 +6,7 @@ use super::Context;
 use super::controls::short;
 use crate::app::command::Command;
 use crate::app::curves;
+use crate::app::text::{fill, tr};
 use crate::app::widgets::{BeamView, Card, Icon};
 use crate::dynamics::Outcome;
 
@@ -37,17 +38,17 @@ pub(super) fn show_in(context: &mut Context<'_>, ui: &mut Ui, height: f32) {
     let gap = run.system.equilibrium.gap;
     let open = (gap + run.system.tip_displacement(&state)) / gap;
     let hint = match run.outcome() {
-        Outcome::Completed if slower >= 1.05 => format!("{} times slower", short(slower)),
+        Outcome::Completed if slower >= 1.05 => fill("{factor} times slower", &[("factor", &short(slower))]),
         Outcome::Completed => String::new(),
-        Outcome::Escaped { .. } => "after the escape".to_owned(),
-        Outcome::Contact { .. } => "at contact".to_owned(),
+        Outcome::Escaped { .. } => tr("after the escape").to_owned(),
+        Outcome::Contact { .. } => tr("at contact").to_owned(),
     };
     let (icon, label) =
-        if context.view.beam_moves { (Icon::Pause, "Hold") } else { (Icon::Play, "Let it move") };
-    let card = Card::new("The beam").hint(&hint).button(icon, label).hugging().show(ui, |ui| {
+        if context.view.beam_moves { (Icon::Pause, tr("Hold")) } else { (Icon::Play, tr("Let it move")) };
+    let card = Card::new(tr("The beam")).hint(&hint).button(icon, label).hugging().show(ui, |ui| {
         let within = |shape: &[[f64; 2]]| shape.iter().all(|point| point[1].abs() < 1.0);
         if !within(&shape) {
-            ui.label("The tip has left the picture: the truncated force lets it go.");
+            ui.label(tr("The tip has left the picture: the truncated force lets it go."));
             return;
         }
         let extremes: Vec<&[[f64; 2]]> = curves

@@ -8,6 +8,8 @@ use super::design::safety::Safety;
 use super::stability_map::{self, drag_point};
 use crate::app::command::Command;
 use crate::app::map::{Boundaries, ceiling};
+use crate::app::panels::computing;
+use crate::app::text::tr;
 use crate::app::theme::{self, Tokens};
 use crate::app::view::{Layer, Panel};
 use crate::app::widgets::number::{self, significant};
@@ -30,10 +32,10 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         _ => context.studies.motions.study().map(|chart| (chart.progress(), chart.finished())),
     };
     let hint = match progress {
-        Some((done, false)) => format!("computing {:.0} %", 100.0 * done),
-        _ => "drag or click to move".to_owned(),
+        Some((done, false)) => computing(done),
+        _ => tr("drag or click to move").to_owned(),
     };
-    context.plot_card(ui, Panel::Chart, "Stability chart", &hint, |context, ui| {
+    context.plot_card(ui, Panel::Chart, tr("Stability chart"), &hint, |context, ui| {
         let Some(boundaries) = &context.session.boundaries else { return };
         header(context, ui);
         plot(context, ui, boundaries);
@@ -46,12 +48,12 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         stability_map::choose_window(context, ui);
         ui.add_space(6.0);
         let layers = [
-            (Layer::Multiplier, "forced motion"),
-            (Layer::Motion, "motion reached"),
-            (Layer::Voltage, "voltage"),
-            (Layer::Power, "power"),
+            (Layer::Multiplier, tr("forced motion")),
+            (Layer::Motion, tr("motion reached")),
+            (Layer::Voltage, tr("voltage")),
+            (Layer::Power, tr("power")),
         ];
-        chips(ui, "Chart", &mut layer, &layers);
+        chips(ui, tr("Chart"), &mut layer, &layers);
     });
     if layer != context.view.layer {
         context.commands.push(Command::Chart(layer));
@@ -63,13 +65,13 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         layer @ (Layer::Voltage | Layer::Power) => {
             let top = context.studies.motions.study().map_or(0.0, |chart| highest(chart, layer));
             let (top, unit) = if layer == Layer::Voltage {
-                (top, "V rms")
+                (top, tr("V rms"))
             } else {
                 (microwatts(&context.view.scenario) * top, "µW")
             };
             ui.horizontal(|ui| {
                 colour_bar(ui, "0", &format!("{} {unit}", significant(top, 3)), &colours::sequential);
-                swatches(ui, &[(tokens.danger, "hatched: beyond a limit")]);
+                swatches(ui, &[(tokens.danger, tr("hatched: beyond a limit"))]);
             });
         }
     }
@@ -78,11 +80,11 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
 fn multiplier_legend(ui: &mut Ui, tokens: &Tokens) {
     let kind = |kind| colours::instability(kind, tokens);
     let entries = [
-        (colours::multiplier(Some((0.999, 0.0)), tokens), "stable"),
-        (kind(Instability::PeriodDoubling), "period doubling"),
-        (kind(Instability::NeimarkSacker), "torus"),
-        (kind(Instability::Fold), "fold"),
-        (colours::multiplier(None, tokens), "no forced motion"),
+        (colours::multiplier(Some((0.999, 0.0)), tokens), tr("stable")),
+        (kind(Instability::PeriodDoubling), tr("period doubling")),
+        (kind(Instability::NeimarkSacker), tr("torus")),
+        (kind(Instability::Fold), tr("fold")),
+        (colours::multiplier(None, tokens), tr("no forced motion")),
     ];
     swatches(ui, &entries);
 }
@@ -90,13 +92,13 @@ fn multiplier_legend(ui: &mut Ui, tokens: &Tokens) {
 fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
     let colour = |motion| colours::motion(motion, tokens);
     let entries = [
-        (colour(Motion::Periodic { periods: 1 }), "period 1"),
+        (colour(Motion::Periodic { periods: 1 }), tr("period 1")),
         (colour(Motion::Periodic { periods: 2 }), "2"),
-        (colour(Motion::Periodic { periods: 3 }), "longer"),
-        (colour(Motion::Quasiperiodic), "torus"),
-        (colour(Motion::Chaotic), "chaotic"),
-        (colour(Motion::Escape { time: 0.0 }), "escape or contact"),
-        (tokens.danger, "hatched: beyond a limit"),
+        (colour(Motion::Periodic { periods: 3 }), tr("longer")),
+        (colour(Motion::Quasiperiodic), tr("torus")),
+        (colour(Motion::Chaotic), tr("chaotic")),
+        (colour(Motion::Escape { time: 0.0 }), tr("escape or contact")),
+        (tokens.danger, tr("hatched: beyond a limit")),
     ];
     swatches(ui, &entries);
 }
@@ -188,7 +190,7 @@ fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f6
         };
         recorder::cells(
             plot,
-            "largest multiplier of the forced motion",
+            tr("largest multiplier of the forced motion"),
             chart.question().size,
             ranges,
             &value,
@@ -206,9 +208,9 @@ fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f6
         })
     };
     let name = match layer {
-        Layer::Voltage => "voltage of the motion reached, rms [V]",
-        Layer::Power => "power of the motion reached [µW]",
-        _ => "motion reached",
+        Layer::Voltage => tr("voltage of the motion reached, rms [V]"),
+        Layer::Power => tr("power of the motion reached [µW]"),
+        _ => tr("motion reached"),
     };
     recorder::cells(plot, name, chart.question().size, ranges, &value);
 }
@@ -219,7 +221,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let (low, high) = boundaries.range(window);
     let ceiling = ceiling(window, p.beta);
     let picture = picture(context, ui, context.view.layer);
-    let (x, y) = (Axis::new("excitation frequency", "ω"), Axis::new("excitation amplitude", "β"));
+    let (x, y) = (Axis::new(tr("excitation frequency"), "ω"), Axis::new(tr("excitation amplitude"), "β"));
     let (exact, current) = stability_map::exact_borders(context, boundaries);
     let shown = plot_style::plot(ui, ("chart", window), &x, &y)
         .allow_drag(false)
@@ -233,12 +235,12 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
                 record(context, plot, [*omega, *beta]);
             }
             for tongue in &boundaries.tongues {
-                plot_style::series(plot, Series::Published, "published boundary", &tongue.published);
-                plot_style::series(plot, Series::Coupled, "coupled-mode boundary", &tongue.coupled);
+                plot_style::series(plot, Series::Published, tr("published boundary"), &tongue.published);
+                plot_style::series(plot, Series::Coupled, tr("coupled-mode boundary"), &tongue.coupled);
             }
             for border in &exact {
                 let kind = if current { Series::Exact } else { Series::Ghost };
-                plot_style::series(plot, kind, "exact boundary", border);
+                plot_style::series(plot, kind, tr("exact boundary"), border);
             }
         });
     drag_point(context, ui, &shown, (low, high), ceiling);

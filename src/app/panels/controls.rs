@@ -4,6 +4,8 @@ use egui::Ui;
 
 use super::{Context, beam, device, structure};
 use crate::app::map::Boundaries;
+use crate::app::text::{fill, tr};
+use crate::app::view::Tab;
 use crate::app::widgets::{Mark, ParameterSlider};
 use crate::model::{Parameter, ParameterSet, Units};
 
@@ -36,8 +38,11 @@ pub(in crate::app) fn below(context: &mut Context<'_>, ui: &mut Ui) {
     } else {
         structure::show(context, ui);
     }
-    ui.add_space(4.0);
-    beam::show(context, ui);
+    // The Live tab has its own.
+    if context.view.tab != Tab::Live {
+        ui.add_space(4.0);
+        beam::show(context, ui);
+    }
 }
 
 /// Damping, excitation, frequency.
@@ -50,26 +55,26 @@ fn main_controls(context: &mut Context<'_>, ui: &mut Ui) {
     let frequency = frequency_in_words(&units, &set);
     let default = ParameterSet::default();
     let (low, high) = Parameter::Alpha.range();
-    ParameterSlider::new("Damping", "α", &mut set.alpha, low..=high)
+    ParameterSlider::new(tr("Damping"), "α", &mut set.alpha, low..=high)
         .logarithmic_from(SMALLEST_DAMPING)
         .default_value(default.alpha)
-        .tooltip("Kelvin-Voigt damping of the beam's material: the higher a mode, the more it takes.")
+        .tooltip(tr("Kelvin-Voigt damping of the beam's material: the higher a mode, the more it takes."))
         .equation("Eq. 8")
         .secondary(&damping)
         .show(ui);
     let (low, high) = Parameter::Beta.range();
-    ParameterSlider::new("Excitation", "β", &mut set.beta, low..=high)
+    ParameterSlider::new(tr("Excitation"), "β", &mut set.beta, low..=high)
         .logarithmic_from(SMALLEST_EXCITATION)
         .default_value(default.beta)
-        .tooltip("Amplitude of the base's motion, in beam lengths.")
+        .tooltip(tr("Amplitude of the base's motion, in beam lengths."))
         .equation("Eq. 8")
         .secondary(&excitation)
         .show(ui);
     let marks = boundaries.map_or_else(Vec::new, resonance_marks);
-    ParameterSlider::new("Frequency", "ω", &mut set.omega, FREQUENCIES.0..=FREQUENCIES.1)
+    ParameterSlider::new(tr("Frequency"), "ω", &mut set.omega, FREQUENCIES.0..=FREQUENCIES.1)
         .marks(&marks)
         .default_value(default.omega)
-        .tooltip("Angular frequency of the base's motion, in units of √(EI / m_b L³). Click a mark to go to a resonance.")
+        .tooltip(tr("Angular frequency of the base's motion, in units of √(EI / m_b L³). Click a mark to go to a resonance."))
         .equation("Eq. 8")
         .secondary(&frequency)
         .show(ui);
@@ -82,16 +87,19 @@ fn main_controls(context: &mut Context<'_>, ui: &mut Ui) {
 pub(super) fn resonance_marks(boundaries: &Boundaries) -> Vec<Mark> {
     let frequencies = &boundaries.frequencies;
     let first = frequencies[0];
-    let mut marks =
-        vec![Mark::new(2.0 * first, "2ω₁", "Twice the first natural frequency: first subharmonic resonance")];
+    let mut marks = vec![Mark::new(
+        2.0 * first,
+        "2ω₁",
+        tr("Twice the first natural frequency: first subharmonic resonance"),
+    )];
     if let Some(second) = frequencies.get(1) {
-        marks.push(Mark::new(first + second, "ω₁+ω₂", "Sum of the first two: combination resonance"));
-        marks.push(Mark::new(2.0 * second, "2ω₂", "Twice the second: second subharmonic resonance"));
-        marks.push(Mark::new(second - first, "ω₂−ω₁", "Difference of the first two: no resonance here"));
-        marks.push(Mark::new(first, "ω₁", "First natural frequency: primary resonance"));
-        marks.push(Mark::new(*second, "ω₂", "Second natural frequency: primary resonance"));
+        marks.push(Mark::new(first + second, "ω₁+ω₂", tr("Sum of the first two: combination resonance")));
+        marks.push(Mark::new(2.0 * second, "2ω₂", tr("Twice the second: second subharmonic resonance")));
+        marks.push(Mark::new(second - first, "ω₂−ω₁", tr("Difference of the first two: no resonance here")));
+        marks.push(Mark::new(first, "ω₁", tr("First natural frequency: primary resonance")));
+        marks.push(Mark::new(*second, "ω₂", tr("Second natural frequency: primary resonance")));
     } else {
-        marks.push(Mark::new(first, "ω₁", "First natural frequency: primary resonance"));
+        marks.push(Mark::new(first, "ω₁", tr("First natural frequency: primary resonance")));
     }
     marks.retain(|mark| (FREQUENCIES.0..=FREQUENCIES.1).contains(&mark.value));
     marks
@@ -103,9 +111,10 @@ fn damping_in_words(boundaries: Option<&Boundaries>, set: &ParameterSet) -> Stri
         coupled.modes().first().map(|mode| 100.0 * mode.decay / mode.decay.hypot(mode.frequency))
     });
     match ratio {
-        Some(percent) if set.alpha.is_finite() => {
-            format!("mode 1 with its circuit: damping ratio {percent:.2} %")
-        }
+        Some(percent) if set.alpha.is_finite() => fill(
+            "mode 1 with its circuit: damping ratio {percent} %",
+            &[("percent", &format!("{percent:.2}"))],
+        ),
         _ => String::new(),
     }
 }
@@ -117,7 +126,7 @@ fn excitation_in_words(units: &Units, set: &ParameterSet) -> String {
 
 fn frequency_in_words(units: &Units, set: &ParameterSet) -> String {
     let hertz = units.hertz(set.omega);
-    format!("{} Hz  ·  period {} s", short(hertz), short(1.0 / hertz))
+    fill("{hertz} Hz  ·  period {seconds} s", &[("hertz", &short(hertz)), ("seconds", &short(1.0 / hertz))])
 }
 
 /// Three significant digits.

@@ -5,6 +5,7 @@ use egui_plot::{PlotBounds, PlotPoint};
 
 use super::{Context, sweep};
 use crate::app::command::Command;
+use crate::app::text::{fill, reworded, tr};
 use crate::app::view::Panel;
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::plot_style::{self, Axis};
@@ -21,13 +22,15 @@ const PAIR_WIDTH: f32 = 190.0;
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.curves.study() {
-        Some(study) if !study.finished() => format!("tracing, {} so far", study.curves().len()),
-        Some(study) if study.curves().is_empty() => "no bifurcations in this window".to_owned(),
-        Some(study) if study.curves().len() == 1 => "1 curve".to_owned(),
-        Some(study) => format!("{} curves", study.curves().len()),
+        Some(study) if !study.finished() => {
+            fill("tracing, {count} so far", &[("count", &study.curves().len())])
+        }
+        Some(study) if study.curves().is_empty() => tr("no bifurcations in this window").to_owned(),
+        Some(study) if study.curves().len() == 1 => tr("1 curve").to_owned(),
+        Some(study) => fill("{count} curves", &[("count", &study.curves().len())]),
         None => String::new(),
     };
-    context.plot_card(ui, Panel::Curves, "Bifurcation curves", &hint, |context, ui| {
+    context.plot_card(ui, Panel::Curves, tr("Bifurcation curves"), &hint, |context, ui| {
         header(context, ui);
         plot(context, ui);
     });
@@ -40,13 +43,13 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let weak = theme::tokens(ui).text_weak;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
-        ui.label(egui::RichText::new("across").small().color(weak));
-        chips(ui, "Horizontal parameter", &mut x, &choices);
+        ui.label(egui::RichText::new(tr("across")).small().color(weak));
+        chips(ui, tr("Horizontal parameter"), &mut x, &choices);
         if ui.available_size_before_wrap().x < PAIR_WIDTH {
             ui.end_row();
         }
-        ui.label(egui::RichText::new("up").small().color(weak));
-        chips(ui, "Vertical parameter", &mut y, &choices);
+        ui.label(egui::RichText::new(tr("up")).small().color(weak));
+        chips(ui, tr("Vertical parameter"), &mut y, &choices);
     });
     if x == y {
         // The other axis takes what this one had.
@@ -58,9 +61,9 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     legend::legend(
         ui,
         &[
-            (Series::Exact, "period doubling"),
-            (Series::Torus, "Neimark–Sacker (torus)"),
-            (Series::Fold, "fold"),
+            (Series::Exact, tr("period doubling")),
+            (Series::Torus, tr("Neimark–Sacker (torus)")),
+            (Series::Fold, tr("fold")),
         ],
     );
 }
@@ -100,12 +103,12 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
                 plot_style::series(plot, series(*kind, current), name, line);
             }
             for (name, place) in &special {
-                plot_style::special_point(plot, name, *place);
+                plot_style::special_point(plot, &reworded(name), *place);
             }
         });
     let parameters = context.view.scenario.parameters;
     let here = [x_axis.parameter.get(&parameters), y_axis.parameter.get(&parameters)];
-    let drag = plot_style::operating_point(ui, &shown, "Operating point in this plane", here);
+    let drag = plot_style::operating_point(ui, &shown, tr("Operating point in this plane"), here);
     if let Some(moved) = drag.moved {
         context.edit(|scenario| {
             for (axis, value) in [x_axis, y_axis].iter().zip(moved) {

@@ -8,6 +8,7 @@ use super::Context;
 use super::controls::{resonance_marks, short};
 use super::structure;
 use crate::app::command::Command;
+use crate::app::text::{fill, reworded, tr};
 use crate::app::view::{Tab, View};
 use crate::app::widgets::{Fold, Mark, ParameterSlider, chips};
 use crate::app::{bench, theme};
@@ -30,8 +31,8 @@ pub(super) fn choose_units(context: &mut Context<'_>, ui: &mut Ui) {
         return;
     }
     let mut dimensionless = context.view.design.dimensionless;
-    let choices = [(false, "SI units"), (true, "dimensionless")];
-    if chips(ui, "Units", &mut dimensionless, &choices) {
+    let choices = [(false, tr("SI units")), (true, tr("dimensionless"))];
+    if chips(ui, tr("Units"), &mut dimensionless, &choices) {
         context.redesign(|design| design.dimensionless = dimensionless);
     }
     ui.add_space(6.0);
@@ -41,43 +42,51 @@ pub(super) fn choose_units(context: &mut Context<'_>, ui: &mut Ui) {
 type Words = (&'static str, &'static str, &'static str, f64, &'static str);
 
 /// The words of a dimension; the coupling's unit depends on the scaling.
-pub(in crate::app) const fn words(dimension: Dimension) -> Words {
+pub(in crate::app) fn words(dimension: Dimension) -> Words {
     match dimension {
-        Dimension::FluxDensity => ("Flux density", "ρ", "T", 1.0, "Residual flux density of the magnets."),
+        Dimension::FluxDensity => {
+            (tr("Flux density"), "ρ", "T", 1.0, tr("Residual flux density of the magnets."))
+        }
         Dimension::Permeability => {
-            ("Permeability", "μ", "µH/m", 1e6, "Permeability of the air between them.")
+            (tr("Permeability"), "μ", "µH/m", 1e6, tr("Permeability of the air between them."))
         }
-        Dimension::MagnetLength => ("Length", "H", "mm", 1e3, "Length of each magnet."),
-        Dimension::MagnetRadius => ("Radius", "R", "mm", 1e3, "Radius of each magnet."),
-        Dimension::MagnetArea => ("Area", "S", "mm²", 1e6, "Common area of the magnets."),
+        Dimension::MagnetLength => (tr("Length"), "H", "mm", 1e3, tr("Length of each magnet.")),
+        Dimension::MagnetRadius => (tr("Radius"), "R", "mm", 1e3, tr("Radius of each magnet.")),
+        Dimension::MagnetArea => (tr("Area"), "S", "mm²", 1e6, tr("Common area of the magnets.")),
         Dimension::MagnetDistance => {
-            ("Distance", "D", "mm", 1e3, "Distance of the magnets before the beam sags.")
+            (tr("Distance"), "D", "mm", 1e3, tr("Distance of the magnets before the beam sags."))
         }
-        Dimension::BeamLength => ("Length", "L", "mm", 1e3, "Length of the cantilever."),
-        Dimension::BeamMass => ("Mass", "m", "g", 1e3, "Mass of the cantilever."),
-        Dimension::TipMass => ("Tip mass", "", "g", 1e3, "Mass at the tip, magnet included."),
-        Dimension::YoungsModulus => ("Modulus", "E", "GPa", 1e-9, "Young's modulus of the beam."),
-        Dimension::SecondMoment => ("2nd moment", "I", "mm⁴", 1e12, "Second moment of area of its section."),
+        Dimension::BeamLength => (tr("Length"), "L", "mm", 1e3, tr("Length of the cantilever.")),
+        Dimension::BeamMass => (tr("Mass"), "m", "g", 1e3, tr("Mass of the cantilever.")),
+        Dimension::TipMass => (tr("Tip mass"), "", "g", 1e3, tr("Mass at the tip, magnet included.")),
+        Dimension::YoungsModulus => (tr("Modulus"), "E", "GPa", 1e-9, tr("Young's modulus of the beam.")),
+        Dimension::SecondMoment => {
+            (tr("2nd moment"), "I", "mm⁴", 1e12, tr("Second moment of area of its section."))
+        }
         Dimension::Viscosity => {
-            ("Viscosity", "Λ", "MPa s", 1e-6, "Kelvin-Voigt viscosity of the beam: its damping.")
+            (tr("Viscosity"), "Λ", "MPa s", 1e-6, tr("Kelvin-Voigt viscosity of the beam: its damping."))
         }
         Dimension::Gravity => {
-            ("Gravity", "g", "m/s²", 1.0, "Acceleration of gravity, which makes the beam sag.")
+            (tr("Gravity"), "g", "m/s²", 1.0, tr("Acceleration of gravity, which makes the beam sag."))
         }
-        Dimension::Capacitance => ("Capacity", "C", "nF", 1e9, "Capacitance C_eq of the ceramic."),
-        Dimension::Resistance => ("Load", "R", "kΩ", 1e-3, "Load resistance R_eq."),
-        Dimension::Coupling => ("Coupling", "Θ", "µN/V", 1e6, "Electromechanical coupling."),
-        Dimension::BaseAmplitude => ("Amplitude", "B", "mm", 1e3, "Amplitude of the base's motion."),
-        Dimension::Frequency => ("Frequency", "f", "Hz", 1.0, "Frequency of the base's motion."),
-        Dimension::CeramicThickness => {
-            ("Thickness", "", "mm", 1e3, "Thickness of the ceramic, which decides what voltage it bears.")
-        }
+        Dimension::Capacitance => (tr("Capacity"), "C", "nF", 1e9, tr("Capacitance C_eq of the ceramic.")),
+        Dimension::Resistance => (tr("Load"), "R", "kΩ", 1e-3, tr("Load resistance R_eq.")),
+        Dimension::Coupling => (tr("Coupling"), "Θ", "µN/V", 1e6, tr("Electromechanical coupling.")),
+        Dimension::BaseAmplitude => (tr("Amplitude"), "B", "mm", 1e3, tr("Amplitude of the base's motion.")),
+        Dimension::Frequency => (tr("Frequency"), "f", "Hz", 1.0, tr("Frequency of the base's motion.")),
+        Dimension::CeramicThickness => (
+            tr("Thickness"),
+            "",
+            "mm",
+            1e3,
+            tr("Thickness of the ceramic, which decides what voltage it bears."),
+        ),
         Dimension::LossTangent => (
-            "Loss",
+            tr("Loss"),
             "tan δ",
             "%",
             1e2,
-            "Dielectric dissipation factor of the ceramic: a conductance beside the load.",
+            tr("Dielectric dissipation factor of the ceramic: a conductance beside the load."),
         ),
     }
 }
@@ -138,7 +147,10 @@ fn device_of(context: &Context<'_>, ui: &mut Ui) -> Option<Device> {
         Ok(device) => Some(device),
         Err(error) => {
             let colour = theme::tokens(ui).danger;
-            let text = format!("These numbers belong to no device: {error}.");
+            let text = fill(
+                "These numbers belong to no device: {error}.",
+                &[("error", &reworded(&error.to_string()))],
+            );
             ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
             None
         }
@@ -158,16 +170,17 @@ pub(super) fn excitation(context: &mut Context<'_>, ui: &mut Ui) {
     }
     if holds {
         let mut acceleration = round(device.acceleration());
-        let amplitude = format!("amplitude {} mm", short(1e3 * device.base_amplitude));
+        let amplitude =
+            fill("amplitude {millimetres} mm", &[("millimetres", &short(1e3 * device.base_amplitude))]);
         ParameterSlider::new(
-            "Shaking",
+            tr("Shaking"),
             "a",
             &mut acceleration,
             0.0..=MOST_ACCELERATION.max(device.acceleration()),
         )
         .logarithmic_from(LEAST_ACCELERATION)
         .unit("g")
-        .tooltip("Amplitude of the base's acceleration, in units of standard gravity.")
+        .tooltip(tr("Amplitude of the base's acceleration, in units of standard gravity."))
         .secondary(&amplitude)
         .show(ui);
         if acceleration != round(device.acceleration()) {
@@ -191,13 +204,13 @@ pub(super) fn excitation(context: &mut Context<'_>, ui: &mut Ui) {
     if changed != device {
         adopt(context, changed, scenario.scaling);
     }
-    let choices = [(true, "hold the g"), (false, "hold the mm")];
-    if chips(ui, "When the frequency changes", &mut holds, &choices) {
+    let choices = [(true, tr("hold the g")), (false, tr("hold the mm"))];
+    if chips(ui, tr("When the frequency changes"), &mut holds, &choices) {
         context.redesign(|design| design.holds_acceleration = holds);
     }
     if let Some(reason) = &context.bench.refusal {
         let colour = theme::tokens(ui).danger;
-        let text = format!("Not changed: {reason}.");
+        let text = fill("Not changed: {reason}.", &[("reason", &reworded(reason))]);
         ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
     }
     ui.add_space(6.0);
@@ -215,15 +228,17 @@ fn frequency(context: &Context<'_>, ui: &mut Ui, device: &mut Device) {
     let (lowest, highest) = (super::controls::FREQUENCIES.0, super::controls::FREQUENCIES.1);
     let low = round(units.hertz(lowest)).min(value);
     let high = round(units.hertz(highest)).max(value);
-    let period = format!(
-        "period {} s  ·  ω = {}",
-        short(1.0 / device.frequency),
-        short(TAU * device.frequency * units.time)
+    let period = fill(
+        "period {seconds} s  ·  ω = {omega}",
+        &[
+            ("seconds", &short(1.0 / device.frequency)),
+            ("omega", &short(TAU * device.frequency * units.time)),
+        ],
     );
-    ParameterSlider::new("Frequency", "f", &mut value, low..=high)
+    ParameterSlider::new(tr("Frequency"), "f", &mut value, low..=high)
         .marks(&marks)
         .unit("Hz")
-        .tooltip("Frequency of the base's motion. Click a mark to go to a resonance.")
+        .tooltip(tr("Frequency of the base's motion. Click a mark to go to a resonance."))
         .secondary(&period)
         .show(ui);
     if value != present {
@@ -256,7 +271,7 @@ fn beam(ui: &mut Ui, device: &mut Device) {
     let of = |dimension: Dimension, device: &Device| short(words(dimension).3 * dimension.get(device));
     let summary =
         format!("L {} mm  ·  {} g", of(Dimension::BeamLength, device), of(Dimension::BeamMass, device));
-    Fold::new("Beam").summary(&summary).default_open(true).show(ui, |ui| {
+    Fold::new(tr("Beam")).summary(&summary).default_open(true).show(ui, |ui| {
         for dimension in [
             Dimension::BeamLength,
             Dimension::BeamMass,
@@ -272,13 +287,16 @@ fn beam(ui: &mut Ui, device: &mut Device) {
 }
 
 fn magnets(ui: &mut Ui, device: &mut Device) {
-    let kinds =
-        [(Magnets::Repelling, "repelling"), (Magnets::Attracting, "attracting"), (Magnets::Absent, "absent")];
+    let kinds = [
+        (Magnets::Repelling, tr("repelling")),
+        (Magnets::Attracting, tr("attracting")),
+        (Magnets::Absent, tr("absent")),
+    ];
     let mut kind = device.magnets();
     let word = kinds.iter().find(|(of, _)| *of == kind).map_or("", |(_, word)| *word);
     let summary = format!("{word}  ·  D {} mm", short(1e3 * device.magnet_distance));
-    Fold::new("Magnets").summary(&summary).default_open(true).show(ui, |ui| {
-        if chips(ui, "Magnets", &mut kind, &kinds) {
+    Fold::new(tr("Magnets")).summary(&summary).default_open(true).show(ui, |ui| {
+        if chips(ui, tr("Magnets"), &mut kind, &kinds) {
             *device = device.with_magnets(kind, &Device::default());
         }
         ui.push_id("magnets", |ui| {
@@ -298,7 +316,7 @@ fn magnets(ui: &mut Ui, device: &mut Device) {
 
 fn circuit(ui: &mut Ui, device: &mut Device, scaling: &mut ElectricalScaling) {
     let load = crate::app::widgets::number::with_unit(device.resistance, "Ω");
-    Fold::new("Circuit and ceramic").summary(&load).default_open(true).show(ui, |ui| {
+    Fold::new(tr("Circuit and ceramic")).summary(&load).default_open(true).show(ui, |ui| {
         for dimension in [
             Dimension::Resistance,
             Dimension::Capacitance,
@@ -309,11 +327,11 @@ fn circuit(ui: &mut Ui, device: &mut Device, scaling: &mut ElectricalScaling) {
             slider(ui, device, dimension);
         }
         let choices = [
-            (ElectricalScaling::AsPrinted, "as printed"),
-            (ElectricalScaling::Consistent, "consistent units"),
+            (ElectricalScaling::AsPrinted, tr("as printed")),
+            (ElectricalScaling::Consistent, tr("consistent units")),
         ];
         ui.add_space(4.0);
-        chips(ui, "Electrical scaling", scaling, &choices);
+        chips(ui, tr("Electrical scaling"), scaling, &choices);
         let text = RichText::new(scaling.explanation()).small().color(theme::tokens(ui).text_weak);
         ui.add(egui::Label::new(text).wrap());
     });
@@ -322,7 +340,7 @@ fn circuit(ui: &mut Ui, device: &mut Device, scaling: &mut ElectricalScaling) {
 /// Back to the paper's device, which keeps its excitation.
 fn paper(context: &mut Context<'_>, ui: &mut Ui) {
     ui.add_space(4.0);
-    if ui.button("Table 1: the paper's device").clicked() {
+    if ui.button(tr("Table 1: the paper's device")).clicked() {
         let own = context.view.scenario.parameters;
         let mut scenario = context.view.scenario.clone();
         let taken = scenario.set_device(Device::default(), ElectricalScaling::AsPrinted).map(|()| {

@@ -3,14 +3,15 @@
 use egui::{RichText, Ui};
 
 use super::Context;
+use crate::app::text::{reworded, tr};
 use crate::app::view::Panel;
 use crate::app::{fonts, theme};
-use crate::dynamics::evidence::Source;
+use crate::dynamics::evidence::{Evidence, Source};
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = "multipliers, recurrence, exponent, spectrum";
-    context.plot_card(ui, Panel::Evidence, "What the verdict rests on", hint, |context, ui| {
+    let hint = tr("multipliers, recurrence, exponent, spectrum");
+    context.plot_card(ui, Panel::Evidence, tr("What the verdict rests on"), hint, |context, ui| {
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| list(context, ui));
     });
 }
@@ -25,17 +26,17 @@ fn list(context: &mut Context<'_>, ui: &mut Ui) {
     ui.spacing_mut().item_spacing.y = 6.0;
     for piece in &verdict.rests_on {
         let (sign, colour) = match piece.agrees {
-            Some(true) => ("agrees", tokens.ok),
-            Some(false) => ("contradicts", tokens.danger),
-            None => ("open", tokens.text_weak),
+            Some(true) => (tr("agrees"), tokens.ok),
+            Some(false) => (tr("contradicts"), tokens.danger),
+            None => (tr("open"), tokens.text_weak),
         };
-        row(ui, title(piece.source), sign, colour, strip(&piece.says));
+        row(ui, title(piece.source), sign, colour, &says(piece));
     }
     for other in &verdict.coexists {
-        row(ui, "Coexisting motion", "", tokens.warning, &other.to_string());
+        row(ui, tr("Coexisting motion"), "", tokens.warning, &reworded(&other.to_string()));
     }
     for warning in &verdict.warnings {
-        row(ui, "Note", "", tokens.warning, &warning.to_string());
+        row(ui, tr("Note"), "", tokens.warning, &reworded(&warning.to_string()));
     }
 }
 
@@ -52,15 +53,24 @@ fn row(ui: &mut Ui, title: &str, sign: &str, colour: egui::Color32, text: &str) 
     });
 }
 
-const fn title(source: Source) -> &'static str {
+fn title(source: Source) -> &'static str {
     match source {
-        Source::Run => "Run",
-        Source::Multipliers => "Multipliers",
-        Source::Recurrence => "Recurrence",
-        Source::Points => "Poincaré points",
-        Source::Exponent => "Lyapunov exponent",
-        Source::Spectrum => "Spectrum",
+        Source::Run => tr("Run"),
+        Source::Multipliers => tr("Multipliers"),
+        Source::Recurrence => tr("Recurrence"),
+        Source::Points => tr("Poincaré points"),
+        Source::Exponent => tr("Lyapunov exponent"),
+        Source::Spectrum => tr("Spectrum"),
     }
+}
+
+/// What it says, in the reader's language; a spectrum names its lines one by one.
+fn says(piece: &Evidence) -> String {
+    let says = strip(&piece.says);
+    if piece.source == Source::Spectrum {
+        return says.split(", ").map(reworded).collect::<Vec<_>>().join(", ");
+    }
+    reworded(says)
 }
 
 /// The text without the name of its source before the colon.

@@ -5,6 +5,7 @@ use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
 use crate::app::figures::{BoundaryFigure, MARKED_EXCITATION};
+use crate::app::text::tr;
 use crate::app::theme;
 use crate::app::widgets::number::significant;
 use crate::app::widgets::plot_style::{self, Axis};
@@ -15,14 +16,17 @@ const HEIGHT: f32 = 380.0;
 
 /// Draws the figure as one card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigure) {
-    let hint = "dotted, solid, dashed, dash-dotted: the four dampings, as in the paper";
+    let hint = tr("dotted, solid, dashed, dash-dotted: the four dampings, as in the paper");
     let height = ui.available_height().max(HEIGHT);
-    let title = "Stability boundaries";
+    let title = tr("Stability boundaries");
     let shown = Card::new(title).hint(hint).exports().height(height).show(ui, |ui| {
         let tongues = &context.session.comparison.tongues;
         let dampings: Vec<String> = tongues.iter().map(|(alpha, _)| significant(*alpha, 1)).collect();
         ui.horizontal_wrapped(|ui| {
-            let thin = [(Series::Published, "as printed (thin)"), (Series::Coupled, "coupled modes (thick)")];
+            let thin = [
+                (Series::Published, tr("as printed (thin)")),
+                (Series::Coupled, tr("coupled modes (thick)")),
+            ];
             legend::legend(ui, &thin);
             let text = format!("α = {}", dampings.join(", "));
             ui.label(egui::RichText::new(text).small().color(theme::tokens(ui).text_weak));
@@ -31,7 +35,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigu
         let ceiling = figure.ceiling;
         let centre = first.published_frequency;
         let half = figure.half_width;
-        let (x, y) = (Axis::new("excitation frequency", "ω"), Axis::new("excitation amplitude", "β"));
+        let (x, y) = (Axis::new(tr("excitation frequency"), "ω"), Axis::new(tr("excitation amplitude"), "β"));
         let tokens = theme::tokens(ui);
         let marked = PlotPoint::new(figure.omega, MARKED_EXCITATION);
         plot_style::plot(ui, ("figure boundaries", figure.point), &x, &y)
@@ -47,7 +51,8 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigu
                     for (kind, curve) in
                         [(Series::Coupled, &tongue.coupled), (Series::Published, &tongue.published)]
                     {
-                        let whose = if kind == Series::Coupled { "coupled modes" } else { "as printed" };
+                        let whose =
+                            if kind == Series::Coupled { tr("coupled modes") } else { tr("as printed") };
                         let name = format!("α = {alpha}, {whose}");
                         for pen in pens(index) {
                             // The style is the paper's and tells the dampings apart, the weight the theories.

@@ -6,6 +6,7 @@ use egui_plot::PlotPoint;
 use super::{Context, phase_plane};
 use crate::app::figures::Figure;
 use crate::app::session::Shown;
+use crate::app::text::tr;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Card, Series};
 use crate::theory::SteadyState;
@@ -37,16 +38,16 @@ pub(super) fn panels(figure: &Figure) -> &'static [Letter] {
 /// Draws one panel as a card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure, letter: Letter) {
     let title = match letter {
-        Letter::InitialHistory => "(a)  Initial history",
-        Letter::TerminalHistory if figure.number == 4 => "(b)  Long-term response",
-        Letter::TerminalHistory => "(b)  Steady-state response",
-        Letter::PhaseDiagram if figure.number == 12 => "(b)  Phase diagram",
-        Letter::PhaseDiagram => "(c)  Phase diagram",
-        Letter::PoincareMap => "(d)  Poincaré map",
+        Letter::InitialHistory => tr("(a)  Initial history"),
+        Letter::TerminalHistory if figure.number == 4 => tr("(b)  Long-term response"),
+        Letter::TerminalHistory => tr("(b)  Steady-state response"),
+        Letter::PhaseDiagram if figure.number == 12 => tr("(b)  Phase diagram"),
+        Letter::PhaseDiagram => tr("(c)  Phase diagram"),
+        Letter::PoincareMap => tr("(d)  Poincaré map"),
     };
     let Some((initial_until, window)) = figure.windows() else { return };
     let with_theory = letter != Letter::InitialHistory && figure.number != 12;
-    let hint = if with_theory { "dots: first-order theory" } else { "" };
+    let hint = if with_theory { tr("dots: first-order theory") } else { "" };
     let shown = Card::new(title).hint(hint).exports().show(ui, |ui| {
         if context.is_stale() {
             ui.multiply_opacity(0.55);
@@ -81,12 +82,12 @@ fn history(ui: &mut Ui, figure: &Figure, shown: &Shown, [from, to]: [f64; 2], th
             .collect(),
         _ => Vec::new(),
     };
-    let (x, y) = (Axis::new("time", "t"), Axis::new("voltage", "v").unit("V"));
+    let (x, y) = (Axis::new(tr("time"), "t"), Axis::new(tr("voltage"), "v").unit("V"));
     plot_style::plot(ui, ("figure history", figure.number, theory), &x, &y).allow_scroll(false).show(
         ui,
         |plot| {
-            plot_style::series(plot, Series::Numeric, "computed", &curve);
-            plot_style::points(plot, Series::Theory, "first-order theory", &dots);
+            plot_style::series(plot, Series::Numeric, tr("computed"), &curve);
+            plot_style::points(plot, Series::Theory, tr("first-order theory"), &dots);
         },
     );
 }
@@ -94,9 +95,9 @@ fn history(ui: &mut Ui, figure: &Figure, shown: &Shown, [from, to]: [f64; 2], th
 fn phase(ui: &mut Ui, figure: &Figure, shown: &Shown) {
     let curves = &shown.curves;
     phase_plane::plot(ui, ("figure phase", figure.number)).allow_scroll(false).show(ui, |plot| {
-        plot_style::series(plot, Series::Numeric, "computed", &curves.phase);
+        plot_style::series(plot, Series::Numeric, tr("computed"), &curves.phase);
         if figure.number != 12 {
-            plot_style::points(plot, Series::Theory, "first-order theory", &curves.theory_phase);
+            plot_style::points(plot, Series::Theory, tr("first-order theory"), &curves.theory_phase);
         }
     });
 }
@@ -108,9 +109,9 @@ fn strobe(ui: &mut Ui, figure: &Figure, shown: &Shown) {
         |plot| {
             if let Some(point) = &curves.theory_strobe {
                 let place = std::slice::from_ref(point);
-                plot_style::points(plot, Series::TheoryPoint, "first-order theory", place);
+                plot_style::points(plot, Series::TheoryPoint, tr("first-order theory"), place);
             }
-            plot_style::points(plot, Series::Poincare, "computed", &curves.strobe);
+            plot_style::points(plot, Series::Poincare, tr("computed"), &curves.strobe);
         },
     );
 }

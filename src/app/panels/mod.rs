@@ -13,6 +13,7 @@ pub(super) mod explore;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
 pub(super) mod lessons;
+pub(super) mod live;
 pub(super) mod multipliers;
 pub(super) mod orbit_diagram;
 pub(super) mod paper;
@@ -37,9 +38,11 @@ use super::command::{Command, Commands};
 use super::crew::Studies;
 use super::embed::Embed;
 use super::lessons::Course;
+use super::live::Live;
 use super::session::{Session, Shown, Status};
-use super::view::{Panel, View};
+use super::view::{Panel, Tab, View};
 use super::widgets::{Card, Icon};
+use crate::app::text::{fill, tr};
 use crate::export::Format;
 
 /// What a panel may look at, and where it leaves its wishes.
@@ -49,6 +52,7 @@ pub(super) struct Context<'a> {
     pub studies: &'a Studies,
     pub bench: &'a Bench,
     pub course: &'a Course,
+    pub live: &'a Live,
     /// The page's own address, without a fragment.
     pub address: &'a str,
     /// What the address asks to be shown of the page; all of it when absent.
@@ -100,13 +104,14 @@ impl<'a> Context<'a> {
         contents: impl FnOnce(&mut Self, &mut egui::Ui),
     ) {
         let large = self.view.enlarged == Some(panel);
-        let (icon, label) = if large { (Icon::Shrink, "Show all plots") } else { (Icon::Enlarge, "Enlarge") };
+        let (icon, label) =
+            if large { (Icon::Shrink, tr("Show all plots")) } else { (Icon::Enlarge, tr("Enlarge")) };
         let card = Card::new(title).hint(hint);
-        // The evidence is text.
-        let card = if panel == Panel::Evidence { card } else { card.exports() };
+        // The evidence is text, the beam a picture.
+        let card = if matches!(panel, Panel::Evidence | Panel::LiveBeam) { card } else { card.exports() };
         let card = card.button(icon, label);
         let shown = card.show(ui, |ui| {
-            if self.is_stale() {
+            if self.is_stale() && self.view.tab != Tab::Live {
                 ui.multiply_opacity(0.55);
             }
             contents(self, ui);
@@ -116,4 +121,9 @@ impl<'a> Context<'a> {
             self.commands.push(Command::Enlarge((!large).then_some(panel)));
         }
     }
+}
+
+/// What is said of work under way, by its done part, 0 to 1.
+fn computing(part: f64) -> String {
+    fill("computing {percent} %", &[("percent", &format!("{:.0}", 100.0 * part))])
 }

@@ -6,6 +6,7 @@ use egui::Ui;
 use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
+use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::widgets::number::significant;
@@ -18,8 +19,8 @@ const CIRCLE: usize = 181;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = "inside the circle: stable";
-    context.plot_card(ui, Panel::Multipliers, "Floquet multipliers", hint, plot);
+    let hint = tr("inside the circle: stable");
+    context.plot_card(ui, Panel::Multipliers, tr("Floquet multipliers"), hint, plot);
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
@@ -30,8 +31,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     // A motion of period 1 that is the forced one is drawn once.
     let reached = found.reached.as_ref().filter(|reached| found.forced.as_ref() != Some(*reached));
     let reached = reached.filter(|reached| !same(reached, found.forced.as_ref()));
-    let name = reached.map(|reached| format!("period {} reached", reached.periods));
-    let mut entries = vec![(Series::Forced, "forced motion")];
+    let name = reached.map(|reached| fill("period {periods} reached", &[("periods", &reached.periods)]));
+    let mut entries = vec![(Series::Forced, tr("forced motion"))];
     entries.extend(name.as_deref().map(|name| (Series::Reached, name)));
     legend::legend(ui, &entries);
     if let Some(forced) = &found.forced {
@@ -54,9 +55,9 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
         ui,
         |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([-reach, -reach], [reach, reach]));
-            plot_style::series(plot, Series::Ghost, "unit circle", &circle);
-            plot_style::points(plot, Series::Forced, "forced motion", &forced);
-            plot_style::points(plot, Series::Reached, "motion reached", &reached);
+            plot_style::series(plot, Series::Ghost, tr("unit circle"), &circle);
+            plot_style::points(plot, Series::Forced, tr("forced motion"), &forced);
+            plot_style::points(plot, Series::Reached, tr("motion reached"), &reached);
         },
     );
 }
@@ -76,10 +77,13 @@ fn in_words(forced: &Multipliers) -> String {
         format!("μ = {} ± {} i", significant(*re, 4), significant(im.abs(), 4))
     };
     let meaning = match (modulus < 1.0, *im == 0.0, *re < 0.0) {
-        (true, ..) => "stable",
-        (false, false, _) => "unstable: a torus grows",
-        (false, true, true) => "unstable: every second period repeats, the period doubles",
-        (false, true, false) => "unstable: it is left in one direction",
+        (true, ..) => tr("stable"),
+        (false, false, _) => tr("unstable: a torus grows"),
+        (false, true, true) => tr("unstable: every second period repeats, the period doubles"),
+        (false, true, false) => tr("unstable: it is left in one direction"),
     };
-    format!("forced motion: largest {value}, |μ| = {} · {meaning}", significant(modulus, 5))
+    fill(
+        "forced motion: largest {value}, |μ| = {modulus} · {meaning}",
+        &[("value", &value), ("modulus", &significant(modulus, 5)), ("meaning", &meaning)],
+    )
 }

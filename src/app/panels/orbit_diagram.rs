@@ -4,6 +4,8 @@ use egui::{RichText, Ui};
 use egui_plot::{PlotPoint, VLine};
 
 use super::{Context, sweep};
+use crate::app::panels::computing;
+use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::widgets::plot_style::{self, Axis};
@@ -14,18 +16,18 @@ use crate::jobs::study::sweep::{Direction, SweepStudy};
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.sweep.study() {
-        Some(sweep) if !sweep.finished() => format!("computing {:.0} %", 100.0 * sweep.progress()),
-        _ => "click to go there".to_owned(),
+        Some(sweep) if !sweep.finished() => computing(sweep.progress()),
+        _ => tr("click to go there").to_owned(),
     };
-    context.plot_card(ui, Panel::OrbitDiagram, "Orbit diagram", &hint, diagram);
+    context.plot_card(ui, Panel::OrbitDiagram, tr("Orbit diagram"), &hint, diagram);
 }
 
 fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(study) = context.studies.sweep.study() else { return };
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 14.0;
-        legend::legend_entry(ui, Series::Up, "upwards");
-        legend::legend_entry(ui, Series::Down, "downwards");
+        legend::legend_entry(ui, Series::Up, tr("upwards"));
+        legend::legend_entry(ui, Series::Down, tr("downwards"));
         ui.label(RichText::new(said(study)).small().color(theme::tokens(ui).text_weak));
     });
     if let Some(message) = study.failure() {
@@ -35,7 +37,7 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
     }
     let ways = [Direction::Up, Direction::Down].map(|direction| strobe(study, direction));
     let (name, symbol) = sweep::title(study.question().parameter);
-    let (x, y) = (Axis::new(name, symbol), Axis::new("voltage at t = 2πk/ω", "v").unit("V"));
+    let (x, y) = (Axis::new(name, symbol), Axis::new(tr("voltage at t = 2πk/ω"), "v").unit("V"));
     let range = study.question().range;
     let colour = theme::tokens(ui).ruler;
     let value = study.question().parameter.get(&context.view.scenario.parameters);
@@ -44,8 +46,8 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
         .include_x(range.1)
         .show(ui, |plot| {
             plot.vline(VLine::new("", value).color(colour).width(1.0).allow_hover(false));
-            plot_style::points(plot, Series::Down, "downwards", &ways[1]);
-            plot_style::points(plot, Series::Up, "upwards", &ways[0]);
+            plot_style::points(plot, Series::Down, tr("downwards"), &ways[1]);
+            plot_style::points(plot, Series::Up, tr("upwards"), &ways[0]);
         });
     go_where_clicked(context, &response, study);
 }
@@ -58,12 +60,12 @@ fn said(study: &SweepStudy) -> String {
         .flat_map(|direction| study.points(*direction).iter().skip(1))
         .filter(|point| point.restarted)
         .count();
-    let mut text = format!(
-        "state carried from value to value; {} periods dropped, {} kept",
-        dwell.discarded, dwell.kept
+    let mut text = fill(
+        "state carried from value to value; {dropped} periods dropped, {kept} kept",
+        &[("dropped", &dwell.discarded), ("kept", &dwell.kept)],
     );
     if restarts > 0 {
-        text += &format!("; {restarts} restarted after an escape or contact");
+        text += &fill("; {restarts} restarted after an escape or contact", &[("restarts", &restarts)]);
     }
     text
 }

@@ -5,6 +5,7 @@ use egui::{RichText, Ui};
 use super::{Context, explore, figure_boundaries, figure_panels, tables};
 use crate::app::command::Command;
 use crate::app::figures::{self, FIGURES, Figure};
+use crate::app::text::{fill, tr};
 use crate::app::widgets::{BadgeKind, badge, chips};
 use crate::app::{caption, fonts, theme};
 
@@ -35,11 +36,11 @@ fn choose(context: &mut Context<'_>, ui: &mut Ui) {
     let labels: Vec<String> = FIGURES.iter().map(|figure| figure.number.to_string()).collect();
     let mut choices: Vec<(u8, &str)> =
         FIGURES.iter().zip(&labels).map(|(figure, label)| (figure.number, label.as_str())).collect();
-    choices.push((TABLES, "Tables"));
+    choices.push((TABLES, tr("Tables")));
     let mut number = context.view.figure;
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("Figure").color(tokens.text_weak));
-        if chips(ui, "Figure", &mut number, &choices) {
+        ui.label(RichText::new(tr("Figure")).color(tokens.text_weak));
+        if chips(ui, tr("Figure"), &mut number, &choices) {
             context.commands.push(Command::LoadFigure(number));
         }
     });
@@ -55,21 +56,24 @@ fn describe(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure) {
     frame.show(ui, |ui| {
         ui.set_min_width(ui.available_width());
         ui.horizontal_wrapped(|ui| {
-            let title = format!("Figure {}  ·  {}", figure.number, figure.title);
+            let title = fill(
+                "Figure {number}  ·  {title}",
+                &[("number", &figure.number), ("title", &tr(figure.title))],
+            );
             ui.label(
                 RichText::new(title).font(fonts::semibold(theme::size::TITLE)).color(tokens.text_strong),
             );
             let own = figure.scenario();
             if own.as_ref() != Some(&context.view.scenario) {
-                badge(ui, BadgeKind::Warning, "numbers changed");
-                if ui.button(format!("Load Figure {}", figure.number)).clicked() {
+                badge(ui, BadgeKind::Warning, tr("numbers changed"));
+                if ui.button(fill("Load Figure {number}", &[("number", &figure.number)])).clicked() {
                     context.commands.push(Command::LoadFigure(figure.number));
                 }
             }
         });
         ui.add_space(2.0);
-        paragraph(ui, "The paper: ", figure.paper);
-        paragraph(ui, "This model: ", &caption::caption(context.session, figure));
+        paragraph(ui, tr("The paper: "), tr(figure.paper));
+        paragraph(ui, tr("This model: "), &caption::caption(context.session, figure));
     });
 }
 

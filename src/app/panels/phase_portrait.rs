@@ -3,13 +3,14 @@
 use egui::Ui;
 
 use super::{Context, phase_plane};
+use crate::app::text::tr;
 use crate::app::view::Panel;
 use crate::app::widgets::{Series, legend, plot_style};
 use crate::model::state_dimension;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    context.plot_card(ui, Panel::PhasePortrait, "Phase portrait", "click to start there", portrait);
+    context.plot_card(ui, Panel::PhasePortrait, tr("Phase portrait"), tr("click to start there"), portrait);
 }
 
 fn portrait(context: &mut Context<'_>, ui: &mut Ui) {
@@ -17,15 +18,19 @@ fn portrait(context: &mut Context<'_>, ui: &mut Ui) {
     let curves = &shown.curves;
     legend::legend(
         ui,
-        &[(Series::Numeric, "computed"), (Series::Ghost, "start"), (Series::Theory, "first-order theory")],
+        &[
+            (Series::Numeric, tr("computed")),
+            (Series::Ghost, tr("start")),
+            (Series::Theory, tr("first-order theory")),
+        ],
     );
     let response = phase_plane::plot_around(ui, "phase portrait", curves.extent).show(ui, |plot| {
         if let Some(pinned) = &context.session.pinned {
-            plot_style::series(plot, Series::Ghost, "pinned", &pinned.curves.phase);
+            plot_style::series(plot, Series::Ghost, tr("pinned"), &pinned.curves.phase);
         }
-        plot_style::series(plot, Series::Ghost, "start of the motion", &curves.transient);
-        plot_style::series(plot, Series::Numeric, "computed", &curves.phase);
-        plot_style::points(plot, Series::Theory, "first-order theory", &curves.theory_phase);
+        plot_style::series(plot, Series::Ghost, tr("start of the motion"), &curves.transient);
+        plot_style::series(plot, Series::Numeric, tr("computed"), &curves.phase);
+        plot_style::points(plot, Series::Theory, tr("first-order theory"), &curves.theory_phase);
     });
     if let Some(at) = response.response.clicked().then(|| response.response.interact_pointer_pos()).flatten()
     {

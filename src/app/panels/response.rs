@@ -5,6 +5,7 @@ use egui_plot::{PlotPoint, VLine};
 
 use super::{Context, orbit_diagram, sweep};
 use crate::app::crew::Response;
+use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::{Output, Panel};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -20,10 +21,10 @@ use crate::scenario::Scenario;
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.response() {
-        Some(Response { newest: true, .. }) => "solid: stable, dashed: unstable",
-        _ => "following the branches",
+        Some(Response { newest: true, .. }) => tr("solid: stable, dashed: unstable"),
+        _ => tr("following the branches"),
     };
-    context.plot_card(ui, Panel::Response, "Response curves", hint, curves);
+    context.plot_card(ui, Panel::Response, tr("Response curves"), hint, curves);
 }
 
 /// What the vertical axis measures, from the numbers of a point.
@@ -41,9 +42,9 @@ impl Measure {
 
     fn axis(&self) -> Axis {
         match self.output {
-            Output::Voltage => Axis::new("voltage, rms", "v").unit("V"),
-            Output::Power => Axis::new("power in the load", "P").unit("µW"),
-            Output::Tip => Axis::new("tip over the gap", "s/s₀"),
+            Output::Voltage => Axis::new(tr("voltage, rms"), "v").unit("V"),
+            Output::Power => Axis::new(tr("power in the load"), "P").unit("µW"),
+            Output::Tip => Axis::new(tr("tip over the gap"), "s/s₀"),
         }
     }
 
@@ -73,10 +74,10 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     legend::legend(
         ui,
         &[
-            (Series::Up, "upwards"),
-            (Series::Down, "downwards"),
-            (Series::Stable, "stable"),
-            (Series::Unstable, "unstable"),
+            (Series::Up, tr("upwards")),
+            (Series::Down, tr("downwards")),
+            (Series::Stable, tr("stable")),
+            (Series::Unstable, tr("unstable")),
         ],
     );
     let swept = study.question().parameter;
@@ -109,8 +110,8 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
             for (kind, name, line) in &lines {
                 plot_style::series(plot, if current { *kind } else { Series::Ghost }, name, line);
             }
-            plot_style::points(plot, Series::Down, "downwards", &ways[1]);
-            plot_style::points(plot, Series::Up, "upwards", &ways[0]);
+            plot_style::points(plot, Series::Down, tr("downwards"), &ways[1]);
+            plot_style::points(plot, Series::Up, tr("upwards"), &ways[0]);
             for (name, place) in &marks {
                 plot_style::special_point(plot, name, (*place).into());
             }
@@ -133,8 +134,8 @@ fn reached(study: &SweepStudy, direction: Direction, measure: &Measure) -> Vec<P
 /// The stable and unstable stretches of a branch; neighbours share their border.
 fn lines(curve: &ResponseCurve, measure: &Measure) -> Vec<(Series, String, Vec<PlotPoint>)> {
     let name = match curve.periods {
-        1 => "forced motion".to_owned(),
-        periods => format!("period {periods}"),
+        1 => tr("forced motion").to_owned(),
+        periods => fill("period {periods}", &[("periods", &periods)]),
     };
     let sides = curve.points.first().map_or(0, |point| measure.of(point).len());
     let mut lines = Vec::new();
@@ -156,7 +157,7 @@ fn lines(curve: &ResponseCurve, measure: &Measure) -> Vec<(Series, String, Vec<P
 /// Short names of the bifurcations, beside where they are.
 fn marks(curve: &ResponseCurve, measure: &Measure) -> Vec<(String, [f64; 2])> {
     let name = |kind| match kind {
-        Instability::Fold => "fold",
+        Instability::Fold => tr("fold"),
         Instability::PeriodDoubling => "PD",
         Instability::NeimarkSacker => "NS",
     };

@@ -6,7 +6,7 @@ use super::Context;
 use crate::app::command::Command;
 use crate::app::embed::{self, PARTS};
 use crate::app::exporting::request;
-use crate::app::text::tr;
+use crate::app::text::{fill, tr};
 use crate::app::view::View;
 use crate::app::widgets::{Icon, icon_button, qr_code};
 use crate::app::{fonts, link, theme};
@@ -40,11 +40,11 @@ struct Memory {
 pub(super) fn buttons(context: &mut Context<'_>, ui: &mut Ui) {
     let id = Id::unique("share");
     let mut memory: Memory = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-    let button = icon_button(ui, Icon::Share, "Share: link, QR code, file");
+    let button = icon_button(ui, Icon::Share, tr("Share: link, QR code, file"));
     let (can_undo, can_redo) = context.steps;
     for (icon, label, able, command) in [
-        (Icon::Redo, "Redo (Ctrl+Shift+Z)", can_redo, Command::Redo),
-        (Icon::Undo, "Undo (Ctrl+Z)", can_undo, Command::Undo),
+        (Icon::Redo, tr("Redo (Ctrl+Shift+Z)"), can_redo, Command::Redo),
+        (Icon::Undo, tr("Undo (Ctrl+Z)"), can_undo, Command::Undo),
     ] {
         if ui.add_enabled_ui(able, |ui| icon_button(ui, icon, label)).inner.clicked() {
             context.commands.push(command);
@@ -52,7 +52,7 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut Ui) {
     }
     let popup = Popup::from_toggle_button_response(&button)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
-        .accessible_name("Share");
+        .accessible_name(tr("Share"));
     popup.show(|ui| popover(context, ui, &mut memory));
     if memory.large {
         large_code(ui, &link(context, &memory), &mut memory);
@@ -75,19 +75,19 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
     let link = link(context, memory);
     let link = link.as_str();
     ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
-    let title = ui.label(RichText::new("Link to this view").font(fonts::semibold(theme::size::TITLE)));
+    let title = ui.label(RichText::new(tr("Link to this view")).font(fonts::semibold(theme::size::TITLE)));
     let mut shown = link;
     let field = TextEdit::singleline(&mut shown).desired_width(f32::INFINITY).id_salt("link");
     ui.add(field.background_color(tokens.field)).labelled_by(title.id);
     let now = ui.input(|input| input.time);
     let copied = memory.copied.is_some_and(|then| now - then < COPIED);
     ui.horizontal(|ui| {
-        if ui.button(if copied { "Copied" } else { "Copy link" }).clicked() {
+        if ui.button(if copied { tr("Copied") } else { tr("Copy link") }).clicked() {
             ui.ctx().copy_text(link.to_owned());
             ui.ctx().request_repaint_after_secs(COPIED as f32 + 0.1);
             memory.copied = Some(now);
         }
-        if ui.button("Large code").clicked() {
+        if ui.button(tr("Large code")).clicked() {
             enlarge(ui, memory);
         }
         let embedding = memory.parts.is_some();
@@ -97,37 +97,41 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
             memory.parts = (!embedding).then(usual);
         }
     });
-    ui.checkbox(&mut memory.looks, "with my theme and size of type");
+    ui.checkbox(&mut memory.looks, tr("with my theme and size of type"));
     ui.add_space(2.0);
     if let Some(parts) = memory.parts {
         choose_parts(context, ui, memory, parts, link);
     } else {
         let width = ui.available_width();
-        ui.vertical_centered(|ui| match qr_code(ui, link, CODE.min(width), "QR code of the link: enlarge") {
-            Some(code) if code.clicked() => enlarge(ui, memory),
-            Some(_) => {}
-            None => {
-                ui.label(RichText::new("This link is too long for a QR code.").color(tokens.text_weak));
+        ui.vertical_centered(|ui| {
+            match qr_code(ui, link, CODE.min(width), tr("QR code of the link: enlarge")) {
+                Some(code) if code.clicked() => enlarge(ui, memory),
+                Some(_) => {}
+                None => {
+                    ui.label(
+                        RichText::new(tr("This link is too long for a QR code.")).color(tokens.text_weak),
+                    );
+                }
             }
         });
     }
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        if ui.button("Save file").clicked() {
+        if ui.button(tr("Save file")).clicked() {
             context.commands.push(Command::SaveFile);
         }
-        if ui.button("Open file").clicked() {
+        if ui.button(tr("Open file")).clicked() {
             context.commands.push(Command::OpenFile);
         }
         let report =
-            ui.button("Report").on_hover_text("One page to print: device, verdict, limits and plots");
+            ui.button(tr("Report")).on_hover_text(tr("One page to print: device, verdict, limits and plots"));
         if report.clicked() {
             context.commands.push(Command::Report);
         }
     });
     copy_as(context, ui, memory);
     ui.label(
-        RichText::new("or drop a scenario or measured data on the page").small().color(tokens.text_weak),
+        RichText::new(tr("or drop a scenario or measured data on the page")).small().color(tokens.text_weak),
     );
 }
 
@@ -162,8 +166,9 @@ fn copy_as(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory) {
     ui.horizontal(|ui| {
         for name in ["Rust", "Python"] {
             let copied = memory.program.is_some_and(|(which, then)| which == name && now - then < COPIED);
-            let text = if copied { "Copied".to_owned() } else { format!("Copy as {name}") };
-            if ui.button(text).on_hover_text("A program that asks the solver the same").clicked() {
+            let text =
+                if copied { tr("Copied").to_owned() } else { fill("Copy as {name}", &[("name", &name)]) };
+            if ui.button(text).on_hover_text(tr("A program that asks the solver the same")).clicked() {
                 let question = request(context.view, context.session);
                 let program =
                     if name == "Rust" { snippet::rust(&question) } else { snippet::python(&question) };
@@ -189,7 +194,7 @@ fn large_code(ui: &Ui, link: &str, memory: &mut Memory) {
     let modal =
         Modal::new(Id::unique("large code")).frame(frame).backdrop_color(Color32::from_black_alpha(190));
     let shown = modal.show(ui.ctx(), |ui| {
-        qr_code(ui, link, side, "QR code of the link: close").is_none_or(|code| code.clicked())
+        qr_code(ui, link, side, tr("QR code of the link: close")).is_none_or(|code| code.clicked())
     });
     if shown.inner || shown.should_close() {
         memory.large = false;
@@ -204,6 +209,6 @@ fn announce_drop(ui: &Ui) {
     let page = ui.ctx().content_rect();
     painter.rect_filled(page, 0, tokens.page.gamma_multiply(0.85));
     let font = fonts::semibold(theme::size::HEADING);
-    let text = "Drop the file to open it";
+    let text = tr("Drop the file to open it");
     painter.text(page.center(), egui::Align2::CENTER_CENTER, text, font, tokens.text_strong);
 }

@@ -2,6 +2,7 @@
 
 use egui::{Context, Id, Modal, RichText, Ui};
 
+use crate::app::text::{marked, tr};
 use crate::app::widgets::{Icon, icon_button};
 use crate::app::{fonts, theme};
 
@@ -9,24 +10,27 @@ use crate::app::{fonts, theme};
 const WIDTH: f32 = 420.0;
 
 /// Keys and what they do.
-const KEYS: [(&str, &str); 17] = [
-    ("1 2 3 …", "open a tab"),
-    ("Tab, Shift+Tab", "go to the next or last control"),
-    ("Enter, Space", "press it"),
-    ("← →", "move a slider; with Shift in small steps"),
-    ("Page Up, Page Down", "move it in large steps"),
-    ("Ctrl+← →", "go to its next mark"),
-    ("Home, End", "go to its ends"),
-    ("← ↑ ↓ →", "move the point in a map"),
-    ("F", "fill the page with one plot after another"),
-    ("Escape", "show all plots; close; leave a field"),
-    ("P", "pin the curves, or drop them"),
-    ("B", "let the beam move, or hold it"),
-    ("D, L", "dark or light; large type"),
-    ("Ctrl+Z, Ctrl+Shift+Z", "undo; redo"),
-    ("Ctrl+S, Ctrl+O", "save or open a file"),
-    ("Escape, then Tab", "go to the text controls"),
-    ("?", "this list"),
+const KEYS: [(&str, &str); 20] = [
+    (marked("1 2 3 …"), marked("open a tab")),
+    (marked("Tab, Shift+Tab"), marked("go to the next or last control")),
+    (marked("Enter, Space"), marked("press it")),
+    (marked("← →"), marked("move a slider; with Shift in small steps")),
+    (marked("Page Up, Page Down"), marked("move it in large steps")),
+    (marked("Ctrl+← →"), marked("go to its next mark")),
+    (marked("Home, End"), marked("go to its ends")),
+    (marked("← ↑ ↓ →"), marked("move the point in a map")),
+    (marked("F"), marked("fill the page with one plot after another")),
+    (marked("Escape"), marked("show all plots; close; leave a field")),
+    (marked("P"), marked("pin the curves, or drop them")),
+    (marked("B"), marked("let the beam move, or hold it")),
+    (marked("Space"), marked("on Live: run or pause")),
+    (marked(". ,"), marked("on Live: go on for a period, for a frame")),
+    (marked("K J R C S"), marked("on Live: kick up, down; from rest; clear; sound")),
+    (marked("D, L"), marked("dark or light; large type")),
+    (marked("Ctrl+Z, Ctrl+Shift+Z"), marked("undo; redo")),
+    (marked("Ctrl+S, Ctrl+O"), marked("save or open a file")),
+    (marked("Escape, then Tab"), marked("go to the text controls")),
+    (marked("?"), marked("this list")),
 ];
 
 fn id() -> Id {
@@ -46,7 +50,7 @@ pub(in crate::app) fn open(context: &Context) {
 
 /// The button that shows it.
 pub(super) fn button(ui: &mut Ui) {
-    if icon_button(ui, Icon::Help, "Keys (?)").clicked() {
+    if icon_button(ui, Icon::Help, tr("Keys (?)")).clicked() {
         open(ui.ctx());
     }
 }
@@ -61,19 +65,19 @@ pub(in crate::app) fn show(ui: &Ui) {
     let frame = egui::Frame::popup(ui.style()).inner_margin(20);
     let shown = Modal::new(id()).frame(frame).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(page.x - 64.0));
-        let title = RichText::new("Keys").font(fonts::semibold(theme::size::HEADING));
+        let title = RichText::new(tr("Keys")).font(fonts::semibold(theme::size::HEADING));
         ui.label(title.color(tokens.text_strong));
         egui::ScrollArea::vertical().max_height(page.y - 160.0).show(ui, |ui| {
             egui::Grid::new("keys").num_columns(2).spacing([18.0, 5.0]).show(ui, |ui| {
                 for (keys, effect) in KEYS {
-                    ui.label(RichText::new(keys).color(tokens.text_strong));
-                    ui.add(egui::Label::new(RichText::new(effect).color(tokens.text)).wrap());
+                    ui.label(RichText::new(tr(keys)).color(tokens.text_strong));
+                    ui.add(egui::Label::new(RichText::new(tr(effect)).color(tokens.text)).wrap());
                     ui.end_row();
                 }
             });
         });
         ui.add_space(6.0);
-        ui.button("Close").clicked()
+        ui.button(tr("Close")).clicked()
     });
     if shown.inner || shown.should_close() {
         ui.data_mut(|data| data.insert_temp(id(), false));

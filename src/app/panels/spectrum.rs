@@ -4,6 +4,7 @@ use egui::Ui;
 use egui_plot::PlotPoint;
 
 use super::Context;
+use crate::app::text::tr;
 use crate::app::view::Panel;
 use crate::app::widgets::plot_style::{self, Axis, to_log};
 use crate::app::widgets::{Series, legend};
@@ -16,20 +17,20 @@ const APART: f64 = 0.06;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    context.plot_card(ui, Panel::Spectrum, "Spectrum", "of the motion reached", plot);
+    context.plot_card(ui, Panel::Spectrum, tr("Spectrum"), tr("of the motion reached"), plot);
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let Some((found, current)) = context.studies.inspection(&context.view.scenario) else { return };
     if found.spectrum.is_empty() || found.verdict.peaks.is_empty() {
         let rect = ui.available_rect_before_wrap();
-        plot_style::no_data(ui, rect, "The motion ends, or there is no voltage: no spectrum.");
+        plot_style::no_data(ui, rect, tr("The motion ends, or there is no voltage: no spectrum."));
         return;
     }
     if !current {
         ui.multiply_opacity(0.55);
     }
-    legend::legend(ui, &[(Series::Numeric, "amplitude of v")]);
+    legend::legend(ui, &[(Series::Numeric, tr("amplitude of v"))]);
     let highest = found.spectrum.iter().map(|[_, amplitude]| *amplitude).fold(0.0, f64::max);
     let floor = to_log(highest) - DECADES;
     let log = |amplitude: f64| if amplitude > 0.0 { to_log(amplitude).max(floor) } else { floor };
@@ -43,13 +44,14 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
             named.push((label.to_string(), [peak.omega, log(peak.amplitude) + 0.32]));
         }
     }
-    let (x, y) = (Axis::new("angular frequency", ""), Axis::new("amplitude", "").unit("V").logarithmic());
+    let (x, y) =
+        (Axis::new(tr("angular frequency"), ""), Axis::new(tr("amplitude"), "").unit("V").logarithmic());
     plot_style::plot(ui, "spectrum", &x, &y)
         .include_x(0.0)
         .include_y(floor)
         .include_y(to_log(highest) + 0.8)
         .show(ui, |plot| {
-            plot_style::series(plot, Series::Numeric, "amplitude", &line);
+            plot_style::series(plot, Series::Numeric, tr("amplitude"), &line);
             for (name, place) in &named {
                 plot_style::labelled_place(plot, name, *place, Series::Theory);
             }

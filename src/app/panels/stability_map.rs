@@ -6,6 +6,7 @@ use egui_plot::{PlotBounds, PlotPoint, PlotResponse};
 use super::Context;
 use crate::app::command::Command;
 use crate::app::map::{Boundaries, ceiling};
+use crate::app::text::tr;
 use crate::app::view::{MapWindow, Panel};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
@@ -19,16 +20,16 @@ const LEGEND: f32 = 300.0;
 /// Draws the map's card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let title = match context.view.map.resonance() {
-        None => "Stability map",
-        Some(Resonance::First) => "Stability near 2ω₁",
-        Some(Resonance::Sum) => "Stability near ω₁+ω₂",
-        Some(Resonance::Second) => "Stability near 2ω₂",
+        None => tr("Stability map"),
+        Some(Resonance::First) => tr("Stability near 2ω₁"),
+        Some(Resonance::Sum) => tr("Stability near ω₁+ω₂"),
+        Some(Resonance::Second) => tr("Stability near 2ω₂"),
     };
-    context.plot_card(ui, Panel::StabilityMap, title, "drag or click to move", |context, ui| {
+    context.plot_card(ui, Panel::StabilityMap, title, tr("drag or click to move"), |context, ui| {
         let Some(boundaries) = &context.session.boundaries else { return };
         if boundaries.tongues.is_empty() {
             let rect = ui.available_rect_before_wrap();
-            plot_style::no_data(ui, rect, "The resonances of the paper need at least two modes.");
+            plot_style::no_data(ui, rect, tr("The resonances of the paper need at least two modes."));
             return;
         }
         header(context, ui);
@@ -46,9 +47,9 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         legend::legend(
             ui,
             &[
-                (Series::Published, "published"),
-                (Series::Coupled, "coupled modes"),
-                (Series::Exact, "exact (Floquet)"),
+                (Series::Published, tr("published")),
+                (Series::Coupled, tr("coupled modes")),
+                (Series::Exact, tr("exact (Floquet)")),
             ],
         );
     });
@@ -59,12 +60,12 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
 pub(super) fn choose_window(context: &mut Context<'_>, ui: &mut Ui) {
     let mut window = context.view.map;
     let windows = [
-        (MapWindow::All, "all"),
+        (MapWindow::All, tr("all")),
         (MapWindow::First, "2ω₁"),
         (MapWindow::Sum, "ω₁+ω₂"),
         (MapWindow::Second, "2ω₂"),
     ];
-    if chips(ui, "Resonance", &mut window, &windows) {
+    if chips(ui, tr("Resonance"), &mut window, &windows) {
         context.commands.push(Command::LookAt(window));
     }
 }
@@ -74,7 +75,7 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let window = context.view.map;
     let (low, high) = boundaries.range(window);
     let ceiling = ceiling(window, p.beta);
-    let (x, y) = (Axis::new("excitation frequency", "ω"), Axis::new("excitation amplitude", "β"));
+    let (x, y) = (Axis::new(tr("excitation frequency"), "ω"), Axis::new(tr("excitation amplitude"), "β"));
     let plot = plot_style::plot(ui, ("stability map", window), &x, &y)
         .allow_drag(false)
         .allow_zoom(false)
@@ -95,16 +96,16 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
             }
         }
         for tongue in &boundaries.tongues {
-            plot_style::series(plot, Series::Published, "published boundary", &tongue.published);
-            plot_style::series(plot, Series::Coupled, "coupled-mode boundary", &tongue.coupled);
+            plot_style::series(plot, Series::Published, tr("published boundary"), &tongue.published);
+            plot_style::series(plot, Series::Coupled, tr("coupled-mode boundary"), &tongue.coupled);
         }
         let kind = if current { Series::Exact } else { Series::Ghost };
         for border in &exact {
-            plot_style::series(plot, kind, "exact boundary", border);
+            plot_style::series(plot, kind, tr("exact boundary"), border);
         }
         let region = if current { Series::Exact } else { Series::Coupled };
         label_regions(plot, boundaries, window, ceiling, region);
-        plot_style::points(plot, Series::Ghost, "pinned", pinned.as_slice());
+        plot_style::points(plot, Series::Ghost, tr("pinned"), pinned.as_slice());
     });
     drag_point(context, ui, &shown, (low, high), ceiling);
 }
@@ -118,7 +119,7 @@ pub(super) fn drag_point<R>(
     ceiling: f64,
 ) {
     let p = context.view.scenario.parameters;
-    let drag = plot_style::operating_point(ui, shown, "Operating point", [p.omega, p.beta]);
+    let drag = plot_style::operating_point(ui, shown, tr("Operating point"), [p.omega, p.beta]);
     if let Some([omega, beta]) = drag.moved {
         let (least, most) = Parameter::Omega.range();
         context.edit(|scenario| {
@@ -150,8 +151,8 @@ fn label_regions(
     kind: Series,
 ) {
     let name = |resonance| match resonance {
-        Resonance::Sum => "combination",
-        Resonance::First | Resonance::Second => "period doubling",
+        Resonance::Sum => tr("combination"),
+        Resonance::First | Resonance::Second => tr("period doubling"),
     };
     for tongue in &boundaries.tongues {
         let lowest =

@@ -4,6 +4,7 @@ use egui::Ui;
 
 use super::Context;
 use super::controls::{FREQUENCIES, short};
+use crate::app::text::{fill, tr};
 use crate::app::widgets::{Fold, ParameterSlider, chips};
 use crate::model::{ForceLaw, MAX_MODES, Parameter, ParameterSet, state_dimension};
 use crate::scenario::{END_TIME, Scenario};
@@ -18,15 +19,15 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let p = &scenario.parameters;
     let (c0, d, h, eta) = (short(p.c0), short(p.d), short(p.h), short(p.eta));
     let (kappa, theta) = (short(p.kappa), short(p.theta));
-    Fold::new("Magnet").summary(&format!("c₀ {c0}  d {d}  h {h}")).show(ui, |ui| {
+    Fold::new(tr("Magnet")).summary(&format!("c₀ {c0}  d {d}  h {h}")).show(ui, |ui| {
         number(ui, &mut changed.parameters, Parameter::C0);
         number(ui, &mut changed.parameters, Parameter::D);
         number(ui, &mut changed.parameters, Parameter::H);
     });
-    Fold::new("Beam and tip mass").summary(&format!("η {eta}")).show(ui, |ui| {
+    Fold::new(tr("Beam and tip mass")).summary(&format!("η {eta}")).show(ui, |ui| {
         number(ui, &mut changed.parameters, Parameter::Eta);
     });
-    Fold::new("Circuit").summary(&format!("κ {kappa}  θ {theta}")).show(ui, |ui| {
+    Fold::new(tr("Circuit")).summary(&format!("κ {kappa}  θ {theta}")).show(ui, |ui| {
         number(ui, &mut changed.parameters, Parameter::C);
         number(ui, &mut changed.parameters, Parameter::Kappa);
         number(ui, &mut changed.parameters, Parameter::Theta);
@@ -40,42 +41,47 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 /// The sections that SI units do not change.
 pub(super) fn model_and_start(ui: &mut Ui, changed: &mut Scenario) {
     let (in_words, from) = (model_in_words(changed), start_in_words(changed));
-    Fold::new("Model").summary(&in_words).show(ui, |ui| model(ui, changed));
-    Fold::new("Start").summary(&from).show(ui, |ui| start(ui, changed));
+    Fold::new(tr("Model")).summary(&in_words).show(ui, |ui| model(ui, changed));
+    Fold::new(tr("Start")).summary(&from).show(ui, |ui| start(ui, changed));
 }
 
 /// One compact slider; its range, scale and words.
 pub(super) fn number(ui: &mut Ui, set: &mut ParameterSet, parameter: Parameter) {
     let (name, symbol, tooltip, floor) = match parameter {
-        Parameter::C0 => {
-            ("Strength", "c₀", "Magnet strength: positive repels, negative attracts, 0 is no magnet.", None)
-        }
+        Parameter::C0 => (
+            tr("Strength"),
+            "c₀",
+            tr("Magnet strength: positive repels, negative attracts, 0 is no magnet."),
+            None,
+        ),
         Parameter::D => (
-            "Gap",
+            tr("Gap"),
             "d",
-            "Distance of the magnets with the beam sagged but unbent by them, in beam lengths.",
+            tr("Distance of the magnets with the beam sagged but unbent by them, in beam lengths."),
             Some(0.01),
         ),
-        Parameter::H => ("Length", "h", "Length of each magnet, in beam lengths.", Some(1e-5)),
-        Parameter::Eta => ("Tip mass", "η", "Mass at the tip over the mass of the beam.", Some(1e-3)),
+        Parameter::H => (tr("Length"), "h", tr("Length of each magnet, in beam lengths."), Some(1e-5)),
+        Parameter::Eta => (tr("Tip mass"), "η", tr("Mass at the tip over the mass of the beam."), Some(1e-3)),
         Parameter::C => {
-            ("Capacitance", "c", "Capacitance of the ceramic, times one volt squared.", Some(1e-9))
+            (tr("Capacitance"), "c", tr("Capacitance of the ceramic, times one volt squared."), Some(1e-9))
         }
         Parameter::Kappa => (
-            "Load",
+            tr("Load"),
             "κ",
-            "Conductance of the load, times one volt squared: large κ is a small resistance.",
+            tr("Conductance of the load, times one volt squared: large κ is a small resistance."),
             Some(1e-9),
         ),
         Parameter::Theta => {
-            ("Coupling", "θ", "Electromechanical coupling: bending moment of one volt.", Some(1e-6))
+            (tr("Coupling"), "θ", tr("Electromechanical coupling: bending moment of one volt."), Some(1e-6))
         }
         // These have a place of their own with more room; here they stand in embedded pages.
-        Parameter::Alpha => ("Damping", "α", "Kelvin-Voigt damping of the beam's material.", Some(1e-6)),
-        Parameter::Beta => {
-            ("Excitation", "β", "Amplitude of the base's motion, in beam lengths.", Some(1e-5))
+        Parameter::Alpha => {
+            (tr("Damping"), "α", tr("Kelvin-Voigt damping of the beam's material."), Some(1e-6))
         }
-        Parameter::Omega => ("Frequency", "ω", "Angular frequency of the base's motion.", None),
+        Parameter::Beta => {
+            (tr("Excitation"), "β", tr("Amplitude of the base's motion, in beam lengths."), Some(1e-5))
+        }
+        Parameter::Omega => (tr("Frequency"), "ω", tr("Angular frequency of the base's motion."), None),
     };
     let default = parameter.get(&ParameterSet::default());
     let (low, high) = if parameter == Parameter::Omega { FREQUENCIES } else { parameter.range() };
@@ -95,23 +101,26 @@ pub(super) fn number(ui: &mut Ui, set: &mut ParameterSet, parameter: Parameter) 
 
 fn law_in_words(law: ForceLaw) -> String {
     match law {
-        ForceLaw::Quadratic => "quadratic".into(),
-        ForceLaw::Taylor(degree) => format!("Taylor {degree}"),
-        ForceLaw::Exact => "exact".into(),
+        ForceLaw::Quadratic => tr("quadratic").into(),
+        ForceLaw::Taylor(degree) => fill("Taylor {degree}", &[("degree", &degree)]),
+        ForceLaw::Exact => tr("exact").into(),
     }
 }
 
 fn model_in_words(scenario: &Scenario) -> String {
     let modes = scenario.model.modes;
-    let plural = if modes == 1 { "mode" } else { "modes" };
-    format!("{modes} {plural} · {} force", law_in_words(scenario.model.force))
+    let law = law_in_words(scenario.model.force);
+    match modes {
+        1 => fill("1 mode · {law} force", &[("law", &law)]),
+        modes => fill("{modes} modes · {law} force", &[("modes", &modes), ("law", &law)]),
+    }
 }
 
 fn model(ui: &mut Ui, scenario: &mut Scenario) {
-    ui.label("Modes kept in the truncation, Eq. 30");
+    ui.label(tr("Modes kept in the truncation, Eq. 30"));
     modes(ui, scenario);
     ui.add_space(4.0);
-    ui.label("Magnet force beyond its linear part, Eq. 16");
+    ui.label(tr("Magnet force beyond its linear part, Eq. 16"));
     force(ui, scenario);
     ui.add_space(6.0);
 }
@@ -121,7 +130,7 @@ pub(super) fn modes(ui: &mut Ui, scenario: &mut Scenario) {
     let numbers: Vec<String> = (1..=MAX_MODES).map(|n| n.to_string()).collect();
     let choices: Vec<(usize, &str)> = (1..=MAX_MODES).zip(numbers.iter().map(String::as_str)).collect();
     let mut modes = scenario.model.modes;
-    if chips(ui, "Modes", &mut modes, &choices) {
+    if chips(ui, tr("Modes"), &mut modes, &choices) {
         scenario.set_modes(modes);
     }
 }
@@ -133,28 +142,28 @@ pub(super) fn force(ui: &mut Ui, scenario: &mut Scenario) {
         _ => FIRST_DEGREE,
     };
     let laws = [
-        (ForceLaw::Quadratic, "quadratic"),
-        (ForceLaw::Taylor(degree), "Taylor"),
-        (ForceLaw::Exact, "exact"),
+        (ForceLaw::Quadratic, tr("quadratic")),
+        (ForceLaw::Taylor(degree), tr("Taylor")),
+        (ForceLaw::Exact, tr("exact")),
     ];
-    chips(ui, "Force law", &mut scenario.model.force, &laws);
+    chips(ui, tr("Force law"), &mut scenario.model.force, &laws);
     if let ForceLaw::Taylor(degree) = &mut scenario.model.force {
         let mut value = *degree as f64;
-        let slider = ParameterSlider::new("Degree", "J", &mut value, 2.0..=ForceLaw::MAX_DEGREE as f64);
-        slider.tooltip("Highest power of the tip displacement that is kept.").compact().show(ui);
+        let slider = ParameterSlider::new(tr("Degree"), "J", &mut value, 2.0..=ForceLaw::MAX_DEGREE as f64);
+        slider.tooltip(tr("Highest power of the tip displacement that is kept.")).compact().show(ui);
         *degree = (value.round() as usize).clamp(2, ForceLaw::MAX_DEGREE);
     }
 }
 
 fn start_in_words(scenario: &Scenario) -> String {
-    let from = if scenario.initial.is_some() { "chosen state" } else { "from rest" };
-    format!("{from} · to t = {}", short(scenario.t_end))
+    let from = if scenario.initial.is_some() { tr("chosen state") } else { tr("from rest") };
+    fill("{from} · to t = {time}", &[("from", &from), ("time", &short(scenario.t_end))])
 }
 
 fn start(ui: &mut Ui, scenario: &mut Scenario) {
     let modes = scenario.model.modes;
     let mut from_rest = scenario.initial.is_none();
-    if chips(ui, "Start", &mut from_rest, &[(true, "from rest"), (false, "chosen state")]) {
+    if chips(ui, tr("Start"), &mut from_rest, &[(true, tr("from rest")), (false, tr("chosen state"))]) {
         scenario.initial = (!from_rest).then(|| vec![0.0; state_dimension(modes)]);
     }
     if let Some(state) = &mut scenario.initial {
@@ -165,14 +174,21 @@ fn start(ui: &mut Ui, scenario: &mut Scenario) {
                 .compact()
                 .show(ui);
         };
-        field(ui, "Deflection", "q₁", &mut state[0], 0.5, "Tip displacement in mode 1, in beam lengths.");
-        field(ui, "Velocity", "dq₁/dt", &mut state[modes], 5.0, "Tip velocity in mode 1.");
-        field(ui, "Voltage", "v", &mut state[2 * modes], 100.0, "Voltage at the start, in volts.");
+        field(
+            ui,
+            tr("Deflection"),
+            "q₁",
+            &mut state[0],
+            0.5,
+            tr("Tip displacement in mode 1, in beam lengths."),
+        );
+        field(ui, tr("Velocity"), "dq₁/dt", &mut state[modes], 5.0, tr("Tip velocity in mode 1."));
+        field(ui, tr("Voltage"), "v", &mut state[2 * modes], 100.0, tr("Voltage at the start, in volts."));
     }
-    ParameterSlider::new("Duration", "t", &mut scenario.t_end, END_TIME.0..=END_TIME.1)
+    ParameterSlider::new(tr("Duration"), "t", &mut scenario.t_end, END_TIME.0..=END_TIME.1)
         .logarithmic()
         .default_value(600.0)
-        .tooltip("Length of the run, in units of √(m_b L³ / EI): 0.454 s for the paper's device.")
+        .tooltip(tr("Length of the run, in units of √(m_b L³ / EI): 0.454 s for the paper's device."))
         .compact()
         .show(ui);
     ui.add_space(6.0);

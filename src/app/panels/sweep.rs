@@ -5,6 +5,7 @@ use egui::{RichText, Ui};
 use super::controls::FREQUENCIES;
 use super::{Context, explore, verdict};
 use crate::app::command::Command;
+use crate::app::text::tr;
 use crate::app::view::{Output, Panel, SweepView};
 use crate::app::widgets::{Card, ParameterSlider, chips};
 use crate::app::{questions, theme};
@@ -50,16 +51,16 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 /// The symbol of a parameter, and its name as an axis title.
 pub(super) fn title(parameter: Parameter) -> (&'static str, &'static str) {
     let name = match parameter {
-        Parameter::Alpha => "damping",
-        Parameter::Beta => "excitation amplitude",
-        Parameter::Omega => "excitation frequency",
-        Parameter::C0 => "magnet strength",
-        Parameter::D => "gap",
-        Parameter::H => "magnet length",
-        Parameter::Eta => "tip mass",
-        Parameter::C => "capacitance",
-        Parameter::Kappa => "load conductance",
-        Parameter::Theta => "coupling",
+        Parameter::Alpha => tr("damping"),
+        Parameter::Beta => tr("excitation amplitude"),
+        Parameter::Omega => tr("excitation frequency"),
+        Parameter::C0 => tr("magnet strength"),
+        Parameter::D => tr("gap"),
+        Parameter::H => tr("magnet length"),
+        Parameter::Eta => tr("tip mass"),
+        Parameter::C => tr("capacitance"),
+        Parameter::Kappa => tr("load conductance"),
+        Parameter::Theta => tr("coupling"),
     };
     let symbol = PARAMETERS.iter().find(|(other, _)| *other == parameter).map_or("", |(_, symbol)| symbol);
     (name, symbol)
@@ -71,23 +72,27 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     let (wide, halved) = (width >= WIDE, (WIDE..WIDEST).contains(&width));
     Card::new("").hugging().show(ui, |ui| {
         let mut rows = |ui: &mut Ui| {
-            choice(ui, "sweep", |ui| {
-                if chips(ui, "Swept parameter", &mut sweep.parameter, &PARAMETERS) {
+            choice(ui, tr("sweep"), |ui| {
+                if chips(ui, tr("Swept parameter"), &mut sweep.parameter, &PARAMETERS) {
                     sweep.range = None;
                 }
             });
-            choice(ui, "values", |ui| {
-                chips(ui, "Number of values", &mut sweep.count, &COUNTS);
+            choice(ui, tr("values"), |ui| {
+                chips(ui, tr("Number of values"), &mut sweep.count, &COUNTS);
             });
             if halved {
                 ui.end_row();
             }
-            choice(ui, "periods dropped + kept", |ui| {
-                chips(ui, "Periods", &mut sweep.dwell, &HOLDS);
+            choice(ui, tr("periods dropped + kept"), |ui| {
+                chips(ui, tr("Periods"), &mut sweep.dwell, &HOLDS);
             });
-            choice(ui, "curves of", |ui| {
-                let outputs = [(Output::Voltage, "voltage"), (Output::Power, "power"), (Output::Tip, "tip")];
-                chips(ui, "Response of", &mut sweep.output, &outputs);
+            choice(ui, tr("curves of"), |ui| {
+                let outputs = [
+                    (Output::Voltage, tr("voltage")),
+                    (Output::Power, tr("power")),
+                    (Output::Tip, tr("tip")),
+                ];
+                chips(ui, tr("Response of"), &mut sweep.output, &outputs);
             });
         };
         if wide {
@@ -126,8 +131,8 @@ fn ends(columns: &mut [Ui], sweep: &mut SweepView, range: (f64, f64)) {
         if logarithmic { slider.logarithmic() } else { slider }.show(ui);
     };
     let last = columns.len() - 1;
-    end(&mut columns[0], "From", &mut low);
-    end(&mut columns[last], "To", &mut high);
+    end(&mut columns[0], tr("From"), &mut low);
+    end(&mut columns[last], tr("To"), &mut high);
     if (low, high) != range {
         sweep.range = Some((low, high));
     }

@@ -4,6 +4,7 @@ use egui::{Grid, RichText, Ui};
 
 use super::Context;
 use super::controls::short;
+use crate::app::text::{fill, tr};
 use crate::app::widgets::{Card, number};
 use crate::app::{fonts, theme};
 use crate::model::materials::TABLE_2;
@@ -32,13 +33,13 @@ pub(super) fn show(_context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn first(ui: &mut Ui) {
-    Card::new("Table 1 and section 3.2: the device").hugging().show(ui, device);
+    Card::new(tr("Table 1 and section 3.2: the device")).hugging().show(ui, device);
 }
 
 fn second(ui: &mut Ui) {
-    Card::new("Its dimensionless numbers, Eq. 8").hugging().show(ui, numbers);
+    Card::new(tr("Its dimensionless numbers, Eq. 8")).hugging().show(ui, numbers);
     ui.add_space(10.0);
-    Card::new("Table 2 and section 5.4: piezoelectric ceramics").hugging().show(ui, ceramics);
+    Card::new(tr("Table 2 and section 5.4: piezoelectric ceramics")).hugging().show(ui, ceramics);
 }
 
 /// A symbol with what follows an underscore lowered.
@@ -81,27 +82,27 @@ fn table(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui)) {
 fn device(ui: &mut Ui) {
     let d = Device::default();
     let rows: [(&str, &str, f64, &str); 17] = [
-        ("ρ", "residual flux density", d.flux_density, "T"),
-        ("μ", "permeability of air", 1e6 * d.permeability, "µH/m"),
-        ("H", "length of a magnet", 1e3 * d.magnet_length, "mm"),
-        ("R", "radius of a magnet", 1e3 * d.magnet_radius, "mm"),
-        ("S", "common area of the magnets", 1e6 * d.magnet_area, "mm²"),
-        ("D", "distance of the magnets", 1e3 * d.magnet_distance, "mm"),
-        ("L", "length of the cantilever", 1e3 * d.beam_length, "mm"),
-        ("m_b", "mass of the cantilever", 1e3 * d.beam_mass, "g"),
-        ("m_t", "mass at the tip", 1e3 * d.tip_mass, "g"),
-        ("E", "Young's modulus", 1e-9 * d.youngs_modulus, "GPa"),
-        ("I", "second moment of area", 1e12 * d.second_moment, "mm⁴"),
-        ("Λ", "viscosity", 1e-6 * d.viscosity, "MPa s"),
-        ("g", "gravity", d.gravity, "m/s²"),
-        ("C_eq", "capacitance", 1e9 * d.capacitance, "nF"),
-        ("R_eq", "load resistance", 1e-6 * d.resistance, "MΩ"),
-        ("Θ", "electromechanical coupling", 1e6 * d.coupling, "µN/V"),
-        ("T", "unit of time", d.time_unit(), "s"),
+        ("ρ", tr("residual flux density"), d.flux_density, "T"),
+        ("μ", tr("permeability of air"), 1e6 * d.permeability, "µH/m"),
+        ("H", tr("length of a magnet"), 1e3 * d.magnet_length, "mm"),
+        ("R", tr("radius of a magnet"), 1e3 * d.magnet_radius, "mm"),
+        ("S", tr("common area of the magnets"), 1e6 * d.magnet_area, "mm²"),
+        ("D", tr("distance of the magnets"), 1e3 * d.magnet_distance, "mm"),
+        ("L", tr("length of the cantilever"), 1e3 * d.beam_length, "mm"),
+        ("m_b", tr("mass of the cantilever"), 1e3 * d.beam_mass, "g"),
+        ("m_t", tr("mass at the tip"), 1e3 * d.tip_mass, "g"),
+        ("E", tr("Young's modulus"), 1e-9 * d.youngs_modulus, "GPa"),
+        ("I", tr("second moment of area"), 1e12 * d.second_moment, "mm⁴"),
+        ("Λ", tr("viscosity"), 1e-6 * d.viscosity, "MPa s"),
+        ("g", tr("gravity"), d.gravity, "m/s²"),
+        ("C_eq", tr("capacitance"), 1e9 * d.capacitance, "nF"),
+        ("R_eq", tr("load resistance"), 1e-6 * d.resistance, "MΩ"),
+        ("Θ", tr("electromechanical coupling"), 1e6 * d.coupling, "µN/V"),
+        ("T", tr("unit of time"), d.time_unit(), "s"),
     ];
     table(ui, "device", |ui| {
         // The meaning last: on a phone it may reach beyond the edge.
-        heading(ui, &["symbol", "value", "unit", "meaning"]);
+        heading(ui, &[tr("symbol"), tr("value"), tr("unit"), tr("meaning")]);
         for (name, meaning, number, unit) in rows {
             symbol(ui, name);
             value(ui, number);
@@ -118,7 +119,7 @@ fn numbers(ui: &mut Ui) {
     let consistent = device.dimensionless(ElectricalScaling::Consistent);
     let (Ok(printed), Ok(consistent)) = (printed, consistent) else { return };
     table(ui, "numbers", |ui| {
-        heading(ui, &["number", "as printed", "consistent units"]);
+        heading(ui, &[tr("number"), tr("as printed"), tr("consistent units")]);
         for (parameter, name) in Parameter::ALL.into_iter().zip(SYMBOLS) {
             symbol(ui, name);
             value(ui, parameter.get(&printed));
@@ -126,22 +127,27 @@ fn numbers(ui: &mut Ui) {
             ui.end_row();
         }
     });
-    let text = "Eq. 8 scales the circuit with L². A moment ΘV needs Θ in N m/V, and then one factor L less; the paper's \
-                c, κ and θ follow only from the printed form.";
+    let text = tr(
+        "Eq. 8 scales the circuit with L². A moment ΘV needs Θ in N m/V, and then one factor L less; the paper's \
+         c, κ and θ follow only from the printed form.",
+    );
     ui.add(egui::Label::new(RichText::new(text).small().color(theme::tokens(ui).text_weak)).wrap());
 }
 
 fn ceramics(ui: &mut Ui) {
     table(ui, "ceramics", |ui| {
-        heading(ui, &["material", "quality factor", "dielectric loss", "largest field [V/mil]"]);
+        heading(
+            ui,
+            &[tr("material"), tr("quality factor"), tr("dielectric loss"), tr("largest field [V/mil]")],
+        );
         for material in TABLE_2 {
             ui.label(material.name);
             ui.label(material.quality_factor.to_string());
             let bound = if material.dissipation_is_bound { "< " } else { "" };
             ui.label(format!("{bound}{} %", short(100.0 * material.dissipation_factor)));
-            ui.label(
-                material.field_limit.map_or("not given".to_owned(), |(low, high)| format!("{low} to {high}")),
-            );
+            ui.label(material.field_limit.map_or(tr("not given").to_owned(), |(low, high)| {
+                fill("{low} to {high}", &[("low", &low), ("high", &high)])
+            }));
             ui.end_row();
         }
     });

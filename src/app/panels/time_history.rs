@@ -5,6 +5,7 @@ use egui_plot::PlotPoint;
 
 use super::Context;
 use crate::app::session::Shown;
+use crate::app::text::tr;
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::widgets::plot_style::{self, Axis};
@@ -23,8 +24,8 @@ const INSET_FROM: f32 = 190.0;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let title = "Time history";
-    let hint = "scroll to zoom, double click for all";
+    let title = tr("Time history");
+    let hint = tr("scroll to zoom, double click for all");
     context.plot_card(ui, Panel::TimeHistory, title, hint, |context, ui| {
         let Some(shown) = context.shown() else { return };
         let area = ui.available_rect_before_wrap();
@@ -43,7 +44,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// The whole run; the share `taken` of the plot's height is kept free at the top for the close view.
 fn whole(context: &Context<'_>, ui: &mut Ui, shown: &Shown, taken: f64) {
-    let (x, y) = (Axis::new("time", "t"), Axis::new("voltage", "v").unit("V"));
+    let (x, y) = (Axis::new(tr("time"), "t"), Axis::new(tr("voltage"), "v").unit("V"));
     let [times, low, high] = &shown.curves.envelope;
     let top = high.iter().copied().fold(0.0, f64::max);
     let bottom = low.iter().copied().fold(0.0, f64::min);
@@ -63,12 +64,12 @@ fn whole(context: &Context<'_>, ui: &mut Ui, shown: &Shown, taken: f64) {
         .show(ui, |plot| {
             if let Some(pinned) = &context.session.pinned {
                 let [times, low, high] = &pinned.curves.envelope;
-                plot_style::envelope(plot, Series::Ghost, "pinned", times, low, high);
+                plot_style::envelope(plot, Series::Ghost, tr("pinned"), times, low, high);
             }
             if dense.is_empty() {
-                plot_style::envelope(plot, Series::Numeric, "voltage", times, low, high);
+                plot_style::envelope(plot, Series::Numeric, tr("voltage"), times, low, high);
             } else {
-                plot_style::series(plot, Series::Numeric, "voltage", &dense);
+                plot_style::series(plot, Series::Numeric, tr("voltage"), &dense);
             }
         });
     let room = 0.06 * (top - bottom);
@@ -103,7 +104,7 @@ fn close_view(ui: &mut Ui, rect: Rect, shown: &Shown) {
         .allow_drag(false)
         .allow_scroll(false)
         .show(&mut inner, |plot| {
-            plot_style::series(plot, Series::Numeric, "voltage", &shown.curves.close);
-            plot_style::points(plot, Series::Theory, "first-order theory", &shown.curves.theory_close);
+            plot_style::series(plot, Series::Numeric, tr("voltage"), &shown.curves.close);
+            plot_style::points(plot, Series::Theory, tr("first-order theory"), &shown.curves.theory_close);
         });
 }

@@ -4,6 +4,7 @@ use egui::{Popup, Ui};
 
 use super::{Context, share, shortcuts};
 use crate::app::command::Command;
+use crate::app::panels::computing;
 use crate::app::session::Status;
 use crate::app::text::tr;
 use crate::app::view::Tab;
@@ -61,33 +62,31 @@ fn title(ui: &mut Ui) {
 
 fn choose_tab(context: &mut Context<'_>, ui: &mut Ui) {
     let mut tab = context.view.tab;
-    if tabs(ui, &mut tab, &Tab::NAMED) {
+    if tabs(ui, &mut tab, &Tab::NAMED.map(|(tab, name)| (tab, tr(name)))) {
         context.commands.push(Command::OpenTab(tab));
     }
 }
 
 fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str) -> egui::Response) {
     match context.session.status() {
-        Status::Done => badge(ui, BadgeKind::Converged, "computed"),
-        Status::Computing(part) => {
-            badge(ui, BadgeKind::Computing, &format!("computing {:.0} %", 100.0 * part))
-        }
-        Status::Failed(_) => badge(ui, BadgeKind::Error, "no answer"),
+        Status::Done => badge(ui, BadgeKind::Converged, tr("computed")),
+        Status::Computing(part) => badge(ui, BadgeKind::Computing, &computing(part)),
+        Status::Failed(_) => badge(ui, BadgeKind::Error, tr("no answer")),
     };
 }
 
 fn switches(context: &mut Context<'_>, ui: &mut Ui) {
     choose_theme(context, ui);
     let large = context.view.projector;
-    let label = if large { "Normal type" } else { "Large type for a projector" };
+    let label = if large { tr("Normal type") } else { tr("Large type for a projector") };
     if icon_button(ui, if large { Icon::Shrink } else { Icon::Enlarge }, label).clicked() {
         context.commands.push(Command::SetProjector(!large));
     }
     let pinned = context.session.pinned.is_some();
     let (icon, label) = if pinned {
-        (Icon::Close, "Drop the pinned curves")
+        (Icon::Close, tr("Drop the pinned curves"))
     } else {
-        (Icon::Pin, "Pin: keep these curves as grey ghosts to compare with")
+        (Icon::Pin, tr("Pin: keep these curves as grey ghosts to compare with"))
     };
     if icon_button(ui, icon, label).clicked() {
         context.commands.push(Command::Pin(!pinned));

@@ -7,6 +7,7 @@ use super::Context;
 use super::design::safety::Safety;
 use crate::app::reading::{Reading, Tone};
 use crate::app::session::{Shown, Status};
+use crate::app::text::{fill, reworded};
 use crate::app::{fonts, theme};
 use crate::dynamics::Outcome;
 use crate::model::Demand;
@@ -39,7 +40,10 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let drawn = frame.show(ui, |ui| {
         ui.set_min_width(ui.available_width());
         if let Some(message) = failure {
-            let text = format!("{message}. The last good state stays on the screen.");
+            let text = fill(
+                "{message}. The last good state stays on the screen.",
+                &[("message", &reworded(&message))],
+            );
             ui.label(RichText::new(text).color(tokens.danger));
             return;
         }
@@ -50,7 +54,10 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         line.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
         let facts = format(fonts::regular(theme::size::BODY), tokens.text);
         line.append(&reading.facts.join(SEPARATOR), 12.0, facts);
-        let broken: String = broken.iter().map(|text| format!("{SEPARATOR}beyond a limit: {text}")).collect();
+        let broken: String = broken
+            .iter()
+            .map(|text| SEPARATOR.to_owned() + &fill("beyond a limit: {text}", &[("text", text)]))
+            .collect();
         line.append(&broken, 0.0, format(fonts::regular(theme::size::BODY), tokens.danger));
         ui.label(line);
         if !reading.remarks.is_empty() {

@@ -1,11 +1,87 @@
 //! What the page says, in the reader's language. The English text in the source is the key of the catalogue.
+//!
+//! English is compiled in. The other catalogues (`assets/text`) are fetched when their language is chosen; until one is
+//! there, and for what it lacks, English stands in.
 
+mod core;
+mod language;
+
+use std::borrow::Cow;
+use std::cell::Cell;
+use std::collections::HashMap;
 use std::fmt::Display;
+
+pub use core::{motion_in_words, reworded};
+pub use language::Language;
+
+/// Translations by their English texts.
+type Catalogue = HashMap<String, String>;
+
+thread_local! {
+    /// The language spoken, with its catalogue. Every catalogue is kept for good, as texts of it may be in use.
+    static SPOKEN: Cell<(Language, Option<&'static Catalogue>)> = const { Cell::new((Language::English, None)) };
+    /// The catalogues read so far, so that none is read twice.
+    static READ: Cell<[Option<&'static Catalogue>; Language::ALL.len()]> = const { Cell::new([None; Language::ALL.len()]) };
+}
+
+/// The language that texts are in now.
+#[must_use]
+pub fn language() -> Language {
+    SPOKEN.get().0
+}
+
+fn is_english() -> bool {
+    SPOKEN.get().1.is_none()
+}
+
+/// Whether `language` can be spoken without a catalogue to be fetched.
+#[must_use]
+pub fn is_known(language: Language) -> bool {
+    language == Language::English || READ.get()[language as usize].is_some()
+}
+
+/// Speaks a language that is known; says whether it is.
+pub fn speak(language: Language) -> bool {
+    if is_known(language) {
+        SPOKEN.set((language, READ.get()[language as usize]));
+    }
+    is_known(language)
+}
+
+/// Reads the catalogue of a language and speaks it from now on.
+///
+/// # Errors
+/// What is wrong with the catalogue; the language spoken stays then.
+pub fn install(language: Language, json: &str) -> Result<(), String> {
+    let catalogue: Catalogue = serde_json::from_str(json).map_err(|error| error.to_string())?;
+    let mut read = READ.get();
+    read[language as usize] = Some(Box::leak(Box::new(catalogue)));
+    READ.set(read);
+    speak(language);
+    Ok(())
+}
+
+/// Speaks English again and forgets all catalogues; tests share their thread with others.
+#[cfg(test)]
+pub(crate) fn reset() {
+    SPOKEN.set((Language::English, None));
+    READ.set([None; Language::ALL.len()]);
+}
+
+fn look_up(english: &str) -> Option<&'static str> {
+    SPOKEN.get().1?.get(english).map(String::as_str)
+}
 
 /// A fixed text in the reader's language; English where the catalogue has nothing.
 #[must_use]
 pub fn tr(english: &'static str) -> &'static str {
-    english
+    look_up(english).unwrap_or(english)
+}
+
+/// The same for a text of the page's own markup.
+#[must_use]
+pub fn of_page(english: &str) -> Cow<'static, str> {
+    look_up(english).map_or_else(|| Cow::Owned(english.to_owned()), Cow::Borrowed)
 }
 
 /// A text with values: each `{name}` of the translation is replaced by the value of that name, in any order.
@@ -13,17 +89,43 @@ pub fn tr(english: &'static str) -> &'static str {
 /// Numbers are formatted by the caller, so that they look the same in every language.
 #[must_use]
 pub fn fill(english: &'static str, values: &[(&str, &dyn Display)]) -> String {
-    let mut text = tr(english).to_owned();
-    for (name, value) in values {
-        text = text.replace(&format!("{{{name}}}"), &value.to_string());
+    fill_with(tr(english), values.iter().map(|(name, value)| (*name, value.to_string())))
+}
+
+/// Puts values in their places; what a value says is left alone, braces and all.
+fn fill_with<'a>(text: &str, values: impl Iterator<Item = (&'a str, String)>) -> String {
+    let values: Vec<(&str, String)> = values.collect();
+    let mut out = String::with_capacity(text.len() + 16);
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('{') {
+        out.push_str(before);
+        let found = after.split_once('}').and_then(|(name, after)| {
+            values.iter().find(|(known, _)| *known == name).map(|(_, value)| (value, after))
+        });
+        match found {
+            Some((value, after)) => {
+                out.push_str(value);
+                rest = after;
+            }
+            None => {
+                out.push('{');
+                rest = after;
+            }
+        }
     }
-    text
+    out + rest
 }
 
 /// Marks a text of a table as one of the catalogue; whoever shows it calls [`tr`].
 #[must_use]
 pub const fn marked(english: &'static str) -> &'static str {
     english
+}
+
+/// A name within a sentence: English begins it with a small letter there, German and Chinese as it is.
+#[must_use]
+pub fn within(name: &str) -> String {
+    if is_english() { name.to_lowercase() } else { name.to_owned() }
 }
 
 #[cfg(test)]
@@ -35,5 +137,21 @@ mod tests {
         let text = fill("{power} at {frequency}, again {power}", &[("power", &"3 µW"), ("frequency", &8.16)]);
         assert_eq!(text, "3 µW at 8.16, again 3 µW");
         assert_eq!(marked("Damping"), tr("Damping"));
+        let text = fill("{name}: {reason} {", &[("name", &"a{reason}.json"), ("reason", &"no {")]);
+        assert_eq!(text, "a{reason}.json: no { {");
+    }
+
+    #[test]
+    fn a_catalogue_speaks_where_it_can_and_english_stands_in() {
+        let catalogue = r#"{"Damping":"Dämpfung","{power} at {frequency}":"bei {frequency} {power}"}"#;
+        assert!(install(Language::German, "[]").is_err() && language() == Language::English);
+        install(Language::German, catalogue).expect("a catalogue");
+        let values: [(&str, &dyn Display); 2] = [("power", &"3 W"), ("frequency", &"8 Hz")];
+        let said =
+            (tr("Damping"), tr("Excitation"), fill("{power} at {frequency}", &values), within("Länge"));
+        assert!(speak(Language::English) && speak(Language::German) && !speak(Language::Chinese));
+        reset();
+        assert_eq!(said, ("Dämpfung", "Excitation", "bei 8 Hz 3 W".to_owned(), "Länge".to_owned()));
+        assert_eq!((tr("Damping"), within("Length")), ("Damping", "length".to_owned()));
     }
 }

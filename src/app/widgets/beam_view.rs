@@ -5,6 +5,7 @@ use egui::{
 };
 
 use super::number;
+use crate::app::text::{fill, tr};
 use crate::app::{fonts, theme};
 
 /// Magnifications of the deflection to choose from when it is too small to be seen.
@@ -67,13 +68,12 @@ impl<'a> BeamView<'a> {
     /// Draws over the available width and `height` points.
     pub fn show(self, ui: &mut Ui, height: f32) -> Response {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-        let percent = self
-            .gap
-            .map_or(String::new(), |gap| format!(", gap {} % open", number::significant(100.0 * gap, 2)));
-        let enabled = ui.is_enabled();
-        response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::Role::Image, enabled, format!("The beam in motion{percent}"))
+        let label = self.gap.map_or(tr("The beam in motion").to_owned(), |gap| {
+            let percent = number::significant(100.0 * gap, 2);
+            fill("The beam in motion, gap {percent} % open", &[("percent", &percent)])
         });
+        let enabled = ui.is_enabled();
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, enabled, label.clone()));
         if ui.is_rect_visible(rect) {
             self.paint(ui, rect);
         }
@@ -126,9 +126,12 @@ impl<'a> BeamView<'a> {
         let moving_face = tip + vec2(0.0, 0.5 * side * facing);
         self.gap_arrow(&painter, ui, tip.x + 0.5 * side + 9.0, moving_face.y, fixed_face.y, rect);
         let note = if view.magnification > 1.0 {
-            format!("heights × {}", number::significant(view.magnification, 2).trim_end_matches(".0"))
+            fill(
+                "heights × {factor}",
+                &[("factor", &number::significant(view.magnification, 2).trim_end_matches(".0"))],
+            )
         } else {
-            "to scale".to_owned()
+            tr("to scale").to_owned()
         };
         let at = rect.left_bottom() + vec2(10.0, -7.0);
         painter.text(at, Align2::LEFT_BOTTOM, note, fonts::regular(theme::size::SMALL), tokens.text_weak);
@@ -150,7 +153,13 @@ impl<'a> BeamView<'a> {
         }
         let font = fonts::regular(theme::size::SMALL);
         let middle = (0.5 * (from + to)).clamp(rect.top() + 18.0, rect.bottom() - 18.0);
-        painter.text(pos2(x + 7.0, middle - 1.0), Align2::LEFT_BOTTOM, "gap", font.clone(), tokens.text_weak);
+        painter.text(
+            pos2(x + 7.0, middle - 1.0),
+            Align2::LEFT_BOTTOM,
+            tr("gap"),
+            font.clone(),
+            tokens.text_weak,
+        );
         let text = format!("{:.0} %", (100.0 * gap).max(0.0));
         painter.text(pos2(x + 7.0, middle + 1.0), Align2::LEFT_TOP, text, font, colour);
     }

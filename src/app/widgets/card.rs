@@ -4,6 +4,7 @@ use egui::{Align2, Layout, Popup, Rect, Response, Sense, Ui, UiBuilder, pos2, ve
 
 use super::icon::{self, BUTTON_SIDE, Icon};
 use super::recorder;
+use crate::app::text::tr;
 use crate::app::{fonts, theme};
 use crate::export::Format;
 
@@ -61,7 +62,7 @@ impl<'a> Card<'a> {
 
     /// Adds the button that offers to save what the card shows.
     pub fn exports(self) -> Self {
-        self.button(Icon::Download, "Export")
+        self.button(Icon::Download, tr("Export"))
     }
 
     /// A fixed height in points instead of all that is available.

@@ -3,6 +3,7 @@
 use egui::{Color32, Mesh, Response, Sense, Shape, Ui, WidgetInfo, pos2, vec2};
 
 use super::recorder;
+use crate::app::text::fill;
 use crate::app::{fonts, theme};
 use crate::export::figure::Key;
 
@@ -73,7 +74,11 @@ pub fn attractor_row(ui: &mut Ui, colour: Color32, name: &str, number: &str) -> 
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let enabled = ui.is_enabled();
     response.widget_info(|| {
-        WidgetInfo::labeled(egui::Role::Button, enabled, format!("Start on {name}, {number}"))
+        WidgetInfo::labeled(
+            egui::Role::Button,
+            enabled,
+            fill("Start on {name}, {number}", &[("name", &name), ("number", &number)]),
+        )
     });
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, theme::radius::CONTROL, tokens.hover);

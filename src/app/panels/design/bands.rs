@@ -6,6 +6,7 @@ use egui_plot::PlotUi;
 use super::harvest::{Measure, linear_points};
 use crate::app::bench::questions;
 use crate::app::panels::{Context, explore};
+use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::View;
 use crate::app::widgets::number::{round_significant, significant, with_unit};
@@ -21,13 +22,16 @@ const LEAST: f64 = 1e-9;
 
 /// Draws the cards beside the curves.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    Card::new("Bands").hint("at the base's present amplitude").hugging().show(ui, |ui| table(context, ui));
+    Card::new(tr("Bands"))
+        .hint(tr("at the base's present amplitude"))
+        .hugging()
+        .show(ui, |ui| table(context, ui));
     ui.add_space(explore::GAP);
-    Card::new("Best load").hugging().show(ui, |ui| super::load::brief(context, ui));
+    Card::new(tr("Best load")).hugging().show(ui, |ui| super::load::brief(context, ui));
     ui.add_space(explore::GAP);
-    Card::new("Limits").hugging().show(ui, |ui| super::limits::controls(context, ui));
+    Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
     ui.add_space(explore::GAP);
-    Card::new("Frequencies").hugging().show(ui, |ui| window(context, ui));
+    Card::new(tr("Frequencies")).hugging().show(ui, |ui| window(context, ui));
 }
 
 /// One curve of power for the bands.
@@ -36,11 +40,11 @@ type Power = Vec<Vec<[f64; 2]>>;
 fn curves(study: &HarvestStudy) -> [(&'static str, Power); 5] {
     let linear = linear_points(study).iter().map(|point| [point.frequency, point.power]).collect();
     [
-        ("without magnets", vec![linear]),
-        ("stable motions", study.stable_power()),
-        ("from rest", study.rest_power()),
-        ("swept up", study.swept_power(Direction::Up)),
-        ("swept down", study.swept_power(Direction::Down)),
+        (tr("without magnets"), vec![linear]),
+        (tr("stable motions"), study.stable_power()),
+        (tr("from rest"), study.rest_power()),
+        (tr("swept up"), study.swept_power(Direction::Up)),
+        (tr("swept down"), study.swept_power(Direction::Down)),
     ]
 }
 
@@ -62,7 +66,7 @@ fn least(view: &View, study: &HarvestStudy) -> f64 {
 pub(super) fn least_line(plot: &mut PlotUi<'_>, view: &View, study: &HarvestStudy, measure: &Measure) {
     let at = measure.coordinate(least(view, study));
     let colour = theme::tokens_in(plot.ctx()).ruler;
-    plot_style::rule(plot, false, "least power that counts", at, colour, Pen::Dots(1.4, 6.0));
+    plot_style::rule(plot, false, tr("least power that counts"), at, colour, Pen::Dots(1.4, 6.0));
 }
 
 fn table(context: &mut Context<'_>, ui: &mut Ui) {
@@ -71,32 +75,35 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let present = least(context.view, study);
     let small = |text: &str| RichText::new(text.to_owned()).small();
     least_slider(context, ui, present);
-    if context.view.design.least.is_some() && ui.button(small("half of the highest")).clicked() {
+    if context.view.design.least.is_some() && ui.button(small(tr("half of the highest"))).clicked() {
         context.redesign(|design| design.least = None);
     }
     ui.add_space(4.0);
     let all = curves(study);
     ui.spacing_mut().interact_size.y = 18.0;
     Grid::new("bands").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
-        for text in ["", "highest", "half power", "enough"] {
+        for text in ["", tr("highest"), tr("half power"), tr("enough")] {
             ui.label(small(text).color(tokens.text_weak));
         }
         ui.end_row();
         for (name, power) in &all {
             let Some([frequency, top]) = highest(power) else { continue };
             let bands = usable(power, present);
-            let half =
-                if *name == "without magnets" { Some(study.linear().half_power) } else { half_power(power) };
+            let half = if *name == tr("without magnets") {
+                Some(study.linear().half_power)
+            } else {
+                half_power(power)
+            };
             ui.label(small(name).color(tokens.text));
             let peak = ui.label(small(&with_unit(top, "W")).color(tokens.text_strong));
-            peak.on_hover_text(format!("at {} Hz", significant(frequency, 5)));
+            peak.on_hover_text(fill("at {hertz} Hz", &[("hertz", &significant(frequency, 5))]));
             let shown = half.map_or("–".to_owned(), |half| hertz(half.to - half.from));
             let label = ui.label(small(&shown).color(tokens.text));
             if let Some(half) = half {
                 label.on_hover_text(interval(&half));
             }
             let width = total(&bands);
-            let shown = if bands.is_empty() { "none".to_owned() } else { hertz(width) };
+            let shown = if bands.is_empty() { tr("none").to_owned() } else { hertz(width) };
             let label = ui.label(small(&shown).color(tokens.text_strong));
             if !bands.is_empty() {
                 label.on_hover_text(bands.iter().map(interval).collect::<Vec<_>>().join("\n"));
@@ -106,10 +113,13 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     });
     let stable = usable(&all[1].1, present);
     let text = if stable.is_empty() {
-        format!("Nowhere here does a stable motion give {}.", with_unit(present, "W"))
+        fill("Nowhere here does a stable motion give {power}.", &[("power", &with_unit(present, "W"))])
     } else {
         let list = stable.iter().map(interval).collect::<Vec<_>>().join(", ");
-        format!("At least {} over {list} by stable motions.", with_unit(present, "W"))
+        fill(
+            "At least {power} over {list} by stable motions.",
+            &[("power", &with_unit(present, "W")), ("list", &list)],
+        )
     };
     ui.add_space(2.0);
     ui.add(egui::Label::new(small(&text).color(tokens.text)).wrap());
@@ -118,10 +128,12 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
 /// Chooses the power (W) that counts.
 pub(super) fn least_slider(context: &mut Context<'_>, ui: &mut Ui, present: f64) {
     let mut microwatts = round_significant(1e6 * present, 6);
-    let slider = ParameterSlider::new("Enough is", "P", &mut microwatts, 0.0..=1e6)
+    let slider = ParameterSlider::new(tr("Enough is"), "P", &mut microwatts, 0.0..=1e6)
         .logarithmic_from(1e6 * LEAST)
         .unit("µW")
-        .tooltip("Power from which a frequency counts as usable: half of the highest unless you choose it.")
+        .tooltip(tr(
+            "Power from which a frequency counts as usable: half of the highest unless you choose it.",
+        ))
         .compact();
     if slider.show(ui).changed {
         context.redesign(|design| design.least = Some(1e-6 * microwatts));
@@ -133,7 +145,10 @@ fn hertz(width: f64) -> String {
 }
 
 fn interval(interval: &Interval) -> String {
-    format!("{} to {} Hz", significant(interval.from, 5), significant(interval.to, 5))
+    fill(
+        "{from} to {to} Hz",
+        &[("from", &significant(interval.from, 5)), ("to", &significant(interval.to, 5))],
+    )
 }
 
 /// The window of the curves.
@@ -143,12 +158,12 @@ fn window(context: &mut Context<'_>, ui: &mut Ui) {
     let (mut from, mut to) = (units.hertz(low), units.hertz(high));
     let before = (from, to);
     let mut automatic = context.view.design.window.is_none();
-    if chips(ui, "Window", &mut automatic, &[(true, "about the present"), (false, "own")]) {
+    if chips(ui, tr("Window"), &mut automatic, &[(true, tr("about the present")), (false, tr("own"))]) {
         context.redesign(|design| design.window = (!automatic).then_some(before));
     }
     presets(context, ui);
     let (least, most) = (units.hertz(0.1), units.hertz(80.0).max(to));
-    for (name, value) in [("From", &mut from), ("To", &mut to)] {
+    for (name, value) in [(tr("From"), &mut from), (tr("To"), &mut to)] {
         *value = round_significant(*value, 6);
         ParameterSlider::new(name, "", value, least..=most).logarithmic().unit("Hz").compact().show(ui);
     }

@@ -5,6 +5,8 @@ use egui_plot::PlotPoint;
 
 use super::safety::{Safety, beyond};
 use crate::app::panels::Context;
+use crate::app::panels::computing;
+use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::view::design::Watched;
@@ -19,10 +21,10 @@ use crate::jobs::study::sweep::Direction;
 /// Draws the card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.bench.harvest.study() {
-        Some(study) if !study.finished() => format!("computing {:.0} %", 100.0 * study.progress()),
-        _ => "click to go to a frequency".to_owned(),
+        Some(study) if !study.finished() => computing(study.progress()),
+        _ => tr("click to go to a frequency").to_owned(),
     };
-    context.plot_card(ui, Panel::Harvest, "Over frequency", &hint, |context, ui| {
+    context.plot_card(ui, Panel::Harvest, tr("Over frequency"), &hint, |context, ui| {
         header(context, ui);
         let study = context.studies.bench.harvest.study();
         match study {
@@ -33,7 +35,11 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             }
             None => {
                 let rect = ui.available_rect_before_wrap();
-                plot_style::no_data(ui, rect, "There are no curves for this device: see the message above.");
+                plot_style::no_data(
+                    ui,
+                    rect,
+                    tr("There are no curves for this device: see the message above."),
+                );
             }
         }
     });
@@ -42,16 +48,16 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let (mut watched, mut logarithmic) = (context.view.design.watched, context.view.design.logarithmic);
     let choices = [
-        (Watched::Power, "power"),
-        (Watched::PerG2, "per g²"),
-        (Watched::Voltage, "V rms"),
-        (Watched::Peak, "V peak"),
-        (Watched::Tip, "tip"),
+        (Watched::Power, tr("power")),
+        (Watched::PerG2, tr("per g²")),
+        (Watched::Voltage, tr("V rms")),
+        (Watched::Peak, tr("V peak")),
+        (Watched::Tip, tr("tip")),
     ];
     ui.horizontal_wrapped(|ui| {
-        let mut changed = chips(ui, "Over frequency", &mut watched, &choices);
+        let mut changed = chips(ui, tr("Over frequency"), &mut watched, &choices);
         if watched != Watched::Tip {
-            changed |= chips(ui, "Scale", &mut logarithmic, &[(false, "linear"), (true, "log")]);
+            changed |= chips(ui, tr("Scale"), &mut logarithmic, &[(false, tr("linear")), (true, tr("log"))]);
         }
         if changed {
             context.redesign(|design| (design.watched, design.logarithmic) = (watched, logarithmic));
@@ -60,13 +66,13 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     legend::legend(
         ui,
         &[
-            (Series::Linear, "without magnets"),
-            (Series::Stable, "stable"),
-            (Series::Unstable, "unstable"),
-            (Series::FromRest, "from rest"),
-            (Series::Up, "swept up"),
-            (Series::Down, "swept down"),
-            (Series::Beyond, "beyond a limit"),
+            (Series::Linear, tr("without magnets")),
+            (Series::Stable, tr("stable")),
+            (Series::Unstable, tr("unstable")),
+            (Series::FromRest, tr("from rest")),
+            (Series::Up, tr("swept up")),
+            (Series::Down, tr("swept down")),
+            (Series::Beyond, tr("beyond a limit")),
         ],
     );
 }
@@ -83,11 +89,11 @@ impl Measure {
     pub(in crate::app) fn new(watched: Watched, logarithmic: bool, highest: f64) -> Self {
         let (factor, sign) = if watched == Watched::Tip { (1.0, "") } else { prefix(highest) };
         let (name, symbol, unit) = match watched {
-            Watched::Power => ("power in the load", "P", "W"),
-            Watched::PerG2 => ("power per g²", "P/a²", "W/g²"),
-            Watched::Voltage => ("voltage, rms", "v", "V"),
-            Watched::Peak => ("largest voltage", "v", "V"),
-            Watched::Tip => ("tip", "s", "mm"),
+            Watched::Power => (tr("power in the load"), "P", "W"),
+            Watched::PerG2 => (tr("power per g²"), "P/a²", "W/g²"),
+            Watched::Voltage => (tr("voltage, rms"), "v", "V"),
+            Watched::Peak => (tr("largest voltage"), "v", "V"),
+            Watched::Tip => (tr("tip"), "s", "mm"),
         };
         let axis = Axis::new(name, symbol).unit(format!("{sign}{unit}"));
         let axis = if logarithmic && watched != Watched::Tip { axis.logarithmic() } else { axis };
@@ -153,11 +159,11 @@ fn lasting(points: Vec<HarvestPoint>) -> Vec<HarvestPoint> {
 
 /// Everything that is drawn: its kind, its name, its points.
 fn curves(study: &HarvestStudy) -> Vec<(Series, String, Vec<HarvestPoint>)> {
-    let mut curves = vec![(Series::Linear, "without magnets".to_owned(), linear_points(study))];
+    let mut curves = vec![(Series::Linear, tr("without magnets").to_owned(), linear_points(study))];
     for branch in study.branches().and_then(Result::ok).unwrap_or_default() {
         let name = match branch.periods {
-            1 => "forced motion".to_owned(),
-            periods => format!("period {periods}"),
+            1 => tr("forced motion").to_owned(),
+            periods => fill("period {periods}", &[("periods", &periods)]),
         };
         let points = study.branch_points(branch);
         let mut rest = points.as_slice();
@@ -170,9 +176,9 @@ fn curves(study: &HarvestStudy) -> Vec<(Series, String, Vec<HarvestPoint>)> {
         }
     }
     let from_rest = study.from_rest().iter().filter_map(|start| start.flatten()).map(|(_, point)| point);
-    curves.push((Series::FromRest, "from rest".to_owned(), from_rest.collect()));
-    curves.push((Series::Down, "swept down".to_owned(), lasting(study.swept(Direction::Down))));
-    curves.push((Series::Up, "swept up".to_owned(), lasting(study.swept(Direction::Up))));
+    curves.push((Series::FromRest, tr("from rest").to_owned(), from_rest.collect()));
+    curves.push((Series::Down, tr("swept down").to_owned(), lasting(study.swept(Direction::Down))));
+    curves.push((Series::Up, tr("swept up").to_owned(), lasting(study.swept(Direction::Up))));
     curves
 }
 
@@ -198,7 +204,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
             if *kind != Series::Unstable {
                 let demand = |point: &HarvestPoint| (point.v_peak, point.tip);
                 let over = beyond(safety.as_ref(), points, &demand, &place(side));
-                drawn.push((Series::Beyond, "beyond a limit", over));
+                drawn.push((Series::Beyond, tr("beyond a limit"), over));
             }
         }
     }
@@ -206,10 +212,10 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
     let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.harvest.as_ref());
     for (kind, _, points) in kept.map_or_else(Vec::new, self::curves) {
         if matches!(kind, Series::Stable | Series::FromRest) {
-            drawn.push((Series::Ghost, "pinned", measure.line(&points, 0)));
+            drawn.push((Series::Ghost, tr("pinned"), measure.line(&points, 0)));
         }
     }
-    let x = Axis::new("excitation frequency", "f").unit("Hz");
+    let x = Axis::new(tr("excitation frequency"), "f").unit("Hz");
     let units = view.scenario.units();
     let (low, high) = study.question().window;
     let (low, high) = (units.hertz(low), units.hertz(high));
@@ -225,7 +231,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
         for (kind, name, line) in &drawn {
             plot_style::series(plot, *kind, name, line);
         }
-        plot_style::points(plot, Series::Measured, "measured", &measured);
+        plot_style::points(plot, Series::Measured, tr("measured"), &measured);
         match (&safety, watched) {
             (Some(safety), Watched::Peak) => {
                 safety.voltage_lines(plot, low, &|volts| measure.coordinate(volts))

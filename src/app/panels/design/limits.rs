@@ -4,6 +4,7 @@ use egui::{RichText, Ui};
 
 use super::safety::{self, Safety};
 use crate::app::panels::Context;
+use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{round_significant, with_unit};
 use crate::app::widgets::{ParameterSlider, chips};
@@ -18,44 +19,51 @@ pub(super) fn controls(context: &mut Context<'_>, ui: &mut Ui) {
     let base = context.view.scenario.base();
     let published = Limits::of(&base).voltage;
     let mut own = limits.voltage.is_some();
-    let choices = [(false, "by the ceramic"), (true, "own voltage")];
-    if chips(ui, "Voltage allowed", &mut own, &choices) {
+    let choices = [(false, tr("by the ceramic")), (true, tr("own voltage"))];
+    if chips(ui, tr("Voltage allowed"), &mut own, &choices) {
         limits.voltage = own.then(|| published.unwrap_or((50.0, 50.0)));
     }
     match &mut limits.voltage {
         Some((low, high)) => {
-            let slider = ParameterSlider::new("Peak voltage", "V", low, 0.01..=1e5);
+            let slider = ParameterSlider::new(tr("Peak voltage"), "V", low, 0.01..=1e5);
             slider.logarithmic().unit("V").compact().show(ui);
             *high = *low;
         }
         None => {
             let millimetres = round_significant(1e3 * base.ceramic_thickness, 4);
             let text = match (published, base.ceramic) {
-                (Some((low, high)), Some(ceramic)) => format!(
-                    "{} of {millimetres} mm bears {} to {} (section 5.4).",
-                    ceramic.material().name,
-                    with_unit(low, "V"),
-                    with_unit(high, "V"),
+                (Some((low, high)), Some(ceramic)) => fill(
+                    "{ceramic} of {millimetres} mm bears {low} to {high} (section 5.4).",
+                    &[
+                        ("ceramic", &ceramic.material().name),
+                        ("millimetres", &millimetres),
+                        ("low", &with_unit(low, "V")),
+                        ("high", &with_unit(high, "V")),
+                    ],
                 ),
-                (None, Some(ceramic)) => {
-                    format!("No field limit is published for {}.", ceramic.material().name)
-                }
+                (None, Some(ceramic)) => fill(
+                    "No field limit is published for {ceramic}.",
+                    &[("ceramic", &ceramic.material().name)],
+                ),
                 (_, None) => {
-                    "No ceramic chosen: choose one under Materials, or a voltage of your own.".to_owned()
+                    tr("No ceramic chosen: choose one under Materials, or a voltage of your own.").to_owned()
                 }
             };
             ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
         }
     }
     let mut percent = round_significant(100.0 * limits.gap, 6);
-    let slider = ParameterSlider::new("Gap closed", "s/s₀", &mut percent, 1.0..=100.0).unit("%");
-    slider.tooltip("Part of the gap that the tip may close; at 100 % the magnets touch.").compact().show(ui);
+    let slider = ParameterSlider::new(tr("Gap closed"), "s/s₀", &mut percent, 1.0..=100.0).unit("%");
+    slider
+        .tooltip(tr("Part of the gap that the tip may close; at 100 % the magnets touch."))
+        .compact()
+        .show(ui);
     limits.gap = percent / 100.0;
     let mut percent = round_significant(100.0 * limits.deflection, 6);
-    let slider = ParameterSlider::new("Deflection", "s", &mut percent, 1.0..=100.0).unit("%");
+    let slider = ParameterSlider::new(tr("Deflection"), "s", &mut percent, 1.0..=100.0).unit("%");
     slider
         .default_value(100.0 * Limits::default().deflection)
-        .tooltip("Largest tip displacement over the beam's length; beyond 30 % no beam is a linear one.")
+        .tooltip(tr("Largest tip displacement over the beam's length; beyond 30 % no beam is a linear one."))
         .compact()
         .show(ui);
     limits.deflection = percent / 100.0;

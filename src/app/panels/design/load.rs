@@ -4,7 +4,9 @@ use egui::{RichText, Ui};
 use egui_plot::PlotPoint;
 
 use super::safety::{Safety, beyond};
+use crate::app::panels::computing;
 use crate::app::panels::{Context, explore};
+use crate::app::text::{fill, marked, reworded, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::widgets::number::{prefix, round_significant, significant, with_unit};
@@ -21,16 +23,18 @@ use crate::jobs::work::Finding;
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let progress = context.studies.bench.load.study().map(|study| (study.progress(), study.finished()));
     let hint = match progress {
-        Some((done, false)) => format!("computing {:.0} %", 100.0 * done),
-        _ => "click to take a load".to_owned(),
+        Some((done, false)) => computing(done),
+        _ => tr("click to take a load").to_owned(),
     };
-    context.plot_card(ui, Panel::Load, "Over the load", &hint, |context, ui| {
+    context.plot_card(ui, Panel::Load, tr("Over the load"), &hint, |context, ui| {
         header(context, ui);
         match context.studies.bench.load.study() {
             Some(study) if study.failure().is_none() => plot(context, ui, study),
             study => {
-                let why = study.and_then(LoadStudy::failure).unwrap_or("There is no curve for this device.");
-                plot_style::no_data(ui, ui.available_rect_before_wrap(), why);
+                let why = study
+                    .and_then(LoadStudy::failure)
+                    .unwrap_or(marked("There is no curve for this device."));
+                plot_style::no_data(ui, ui.available_rect_before_wrap(), &reworded(why));
             }
         }
     });
@@ -39,23 +43,26 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let mut logarithmic = context.view.design.logarithmic;
     ui.horizontal_wrapped(|ui| {
-        if chips(ui, "Scale", &mut logarithmic, &[(false, "linear"), (true, "log")]) {
+        if chips(ui, tr("Scale"), &mut logarithmic, &[(false, tr("linear")), (true, tr("log"))]) {
             context.redesign(|design| design.logarithmic = logarithmic);
         }
         let hertz = context.view.scenario.units().hertz(context.view.scenario.parameters.omega);
-        let text = format!("at {} Hz, and at the best frequency of each load", significant(hertz, 4));
+        let text = fill(
+            "at {hertz} Hz, and at the best frequency of each load",
+            &[("hertz", &significant(hertz, 4))],
+        );
         ui.label(RichText::new(text).small().color(theme::tokens(ui).text_weak));
     });
     legend::legend(
         ui,
         &[
-            (Series::Linear, "without magnets"),
-            (Series::Stable, "forced"),
-            (Series::Unstable, "unstable"),
-            (Series::Up, "reached"),
-            (Series::Theory, "best frequency, without magnets"),
-            (Series::Best, "best frequency, stable motions"),
-            (Series::Beyond, "beyond a limit"),
+            (Series::Linear, tr("without magnets")),
+            (Series::Stable, tr("forced")),
+            (Series::Unstable, tr("unstable")),
+            (Series::Up, tr("reached")),
+            (Series::Theory, tr("best frequency, without magnets")),
+            (Series::Best, tr("best frequency, stable motions")),
+            (Series::Beyond, tr("beyond a limit")),
         ],
     );
 }
@@ -80,26 +87,30 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
     let highest =
         best.iter().filter_map(|best| best.nonlinear).map(|[_, power]| power).fold(highest, f64::max);
     let (factor, sign) = prefix(highest);
-    let y = Axis::new("power in the load", "P").unit(format!("{sign}W"));
+    let y = Axis::new(tr("power in the load"), "P").unit(format!("{sign}W"));
     let y = if view.design.logarithmic { y.logarithmic() } else { y };
-    let x = Axis::new("load", "R").unit("Ω").logarithmic();
+    let x = Axis::new(tr("load"), "R").unit("Ω").logarithmic();
     let at =
         |resistance: f64, power: f64| PlotPoint::new(x.coordinate(resistance), y.coordinate(factor * power));
     let place = |point: &LoadPoint| at(point.resistance, point.power);
     let mut drawn: Vec<(Series, &str, Vec<PlotPoint>)> = Vec::new();
-    drawn.push((Series::Linear, "without magnets", study.linear().iter().map(|[r, p]| at(*r, *p)).collect()));
+    drawn.push((
+        Series::Linear,
+        tr("without magnets"),
+        study.linear().iter().map(|[r, p]| at(*r, *p)).collect(),
+    ));
     for run in forced.chunk_by(|a, b| a.stable == b.stable) {
         let kind = if run[0].stable { Series::Stable } else { Series::Unstable };
-        drawn.push((kind, "forced motion", run.iter().map(place).collect()));
+        drawn.push((kind, tr("forced motion"), run.iter().map(place).collect()));
     }
     let linear = best.iter().map(|best| at(best.resistance, best.linear[1])).collect();
-    drawn.push((Series::Theory, "without magnets, best frequency", linear));
+    drawn.push((Series::Theory, tr("without magnets, best frequency"), linear));
     let stable = best.iter().filter_map(|best| best.nonlinear.map(|[_, power]| at(best.resistance, power)));
-    drawn.push((Series::Best, "stable motions, best frequency", stable.collect()));
-    drawn.push((Series::Up, "reached", reached.iter().map(place).collect()));
+    drawn.push((Series::Best, tr("stable motions, best frequency"), stable.collect()));
+    drawn.push((Series::Up, tr("reached"), reached.iter().map(place).collect()));
     let safety = Safety::of(view, context.session);
     let demand = |point: &LoadPoint| (point.v_peak, point.tip);
-    drawn.push((Series::Beyond, "beyond a limit", beyond(safety.as_ref(), &reached, &demand, &place)));
+    drawn.push((Series::Beyond, tr("beyond a limit"), beyond(safety.as_ref(), &reached, &demand, &place)));
     let own = Plant::new(&view.scenario).map_or(f64::NAN, |plant| plant.resistance());
     let colour = theme::tokens(ui).ruler;
     let optimum = best_reached(study).filter(|_| study.finished());
@@ -132,30 +143,36 @@ pub(super) fn best_reached(study: &LoadStudy) -> Option<[f64; 2]> {
 
 /// The cards beside the plot.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
-    Card::new("Best load").hugging().show(ui, |ui| brief(context, ui));
+    Card::new(tr("Best load")).hugging().show(ui, |ui| brief(context, ui));
     ui.add_space(explore::GAP);
-    Card::new("Best load and frequency").hugging().show(ui, |ui| both(context, ui));
+    Card::new(tr("Best load and frequency")).hugging().show(ui, |ui| both(context, ui));
     ui.add_space(explore::GAP);
-    Card::new("Limits").hugging().show(ui, |ui| super::limits::controls(context, ui));
+    Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
 }
 
 /// The best load in a few words, with a button to take it.
 pub(super) fn brief(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(study) = context.studies.bench.load.study() else { return };
-    line(ui, &format!("without magnets: {}", gives(study.linear_best())));
+    line(ui, &fill("without magnets: {what}", &[("what", &gives(study.linear_best()))]));
     match best_reached(study) {
         Some(best) if study.finished() => {
-            line(ui, &format!("the motion reached: {}", gives(best)));
-            if ui.button(format!("Use {}", with_unit(best[0], "Ω"))).clicked() {
+            line(ui, &fill("the motion reached: {what}", &[("what", &gives(best))]));
+            if ui.button(fill("Use {load}", &[("load", &with_unit(best[0], "Ω"))])).clicked() {
                 use_load(context, best[0]);
             }
         }
-        _ => line(ui, &format!("the motion reached: computing {:.0} %", 100.0 * study.progress())),
+        _ => line(
+            ui,
+            &fill(
+                "the motion reached: computing {percent} %",
+                &[("percent", &format!("{:.0}", 100.0 * study.progress()))],
+            ),
+        ),
     }
 }
 
 fn gives([resistance, power]: [f64; 2]) -> String {
-    format!("{} gives {}", with_unit(resistance, "Ω"), with_unit(power, "W"))
+    fill("{load} gives {power}", &[("load", &with_unit(resistance, "Ω")), ("power", &with_unit(power, "W"))])
 }
 
 fn line(ui: &mut Ui, text: &str) {
@@ -167,26 +184,38 @@ fn line(ui: &mut Ui, text: &str) {
 fn both(context: &mut Context<'_>, ui: &mut Ui) {
     let best = best_frequencies(context);
     if let Some(table) = context.studies.bench.best.study().filter(|table| !table.finished()) {
-        line(ui, &format!("computing {:.0} %", 100.0 * table.progress()));
+        line(ui, &computing(table.progress()));
     }
     let place = |frequency: f64, resistance: f64, power: f64| {
-        format!("{} at {} Hz", gives([resistance, power]), significant(frequency, 4))
+        fill(
+            "{what} at {hertz} Hz",
+            &[("what", &gives([resistance, power])), ("hertz", &significant(frequency, 4))],
+        )
     };
     let linear = best.iter().max_by(|a, b| a.linear[1].total_cmp(&b.linear[1]));
     if let Some(best) = linear {
-        line(ui, &format!("without magnets: {}", place(best.linear[0], best.resistance, best.linear[1])));
+        line(
+            ui,
+            &fill(
+                "without magnets: {what}",
+                &[("what", &place(best.linear[0], best.resistance, best.linear[1]))],
+            ),
+        );
     }
     let stable =
         best.iter().filter_map(|best| best.nonlinear.map(|[f, p]| (best.resistance, f, p, best.periods)));
     if let Some((resistance, frequency, power, periods)) = stable.max_by(|a, b| a.2.total_cmp(&b.2)) {
         let text = place(frequency, resistance, power);
-        line(ui, &format!("stable motions: {text}, period {periods}"));
-        if ui.button("Use both").clicked() {
+        line(
+            ui,
+            &fill("stable motions: {text}, period {periods}", &[("text", &text), ("periods", &periods)]),
+        );
+        if ui.button(tr("Use both")).clicked() {
             super::harvest::go_to(context, frequency);
             use_load(context, resistance);
         }
     }
-    line(ui, "Within the window of frequencies of the page Harvest, at the base's present amplitude.");
+    line(ui, tr("Within the window of frequencies of the page Harvest, at the base's present amplitude."));
 }
 
 /// Makes `resistance` (ohm) the load.

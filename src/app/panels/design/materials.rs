@@ -4,7 +4,9 @@ use egui::{Grid, RichText, Ui};
 
 use super::safety;
 use crate::app::command::Command;
+use crate::app::panels::computing;
 use crate::app::panels::{Context, explore};
+use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips};
@@ -18,10 +20,10 @@ use crate::theory::Resonance;
 /// Draws the page.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.bench.materials.study() {
-        Some(table) if !table.finished() => format!("computing {:.0} %", 100.0 * table.progress()),
-        _ => "Table 2 and section 5.4".to_owned(),
+        Some(table) if !table.finished() => computing(table.progress()),
+        _ => tr("Table 2 and section 5.4").to_owned(),
     };
-    Card::new("Ceramics on this device").hint(&hint).hugging().show(ui, |ui| {
+    Card::new(tr("Ceramics on this device")).hint(&hint).hugging().show(ui, |ui| {
         choices(context, ui);
         ui.add_space(6.0);
         egui::ScrollArea::horizontal().id_salt("ceramics").show(ui, |ui| table(context, ui));
@@ -29,29 +31,39 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         notes(context, ui);
     });
     ui.add_space(explore::GAP);
-    Card::new("Limits").hugging().show(ui, |ui| super::limits::controls(context, ui));
+    Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
 }
 
 fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     let modes = context.view.scenario.model.modes;
     let (mut mode, mut resonance) = (context.view.design.mode.clamp(1, modes), context.view.design.resonance);
-    let names: Vec<String> = (1..=modes).map(|mode| format!("mode {mode}")).collect();
+    let names: Vec<String> = (1..=modes).map(|mode| fill("mode {mode}", &[("mode", &mode)])).collect();
     let all: Vec<(usize, &str)> = (1..=modes).zip(names.iter().map(String::as_str)).collect();
     let resonances = [(Resonance::First, "2ω₁"), (Resonance::Sum, "ω₁+ω₂"), (Resonance::Second, "2ω₂")];
     let weak = theme::tokens(ui).text_weak;
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("quality factor given to").small().color(weak));
-        let mut changed = chips(ui, "Quality factor of", &mut mode, &all);
-        ui.label(RichText::new("tongue near").small().color(weak));
-        changed |= chips(ui, "Tongue near", &mut resonance, &resonances);
+        ui.label(RichText::new(tr("quality factor given to")).small().color(weak));
+        let mut changed = chips(ui, tr("Quality factor of"), &mut mode, &all);
+        ui.label(RichText::new(tr("tongue near")).small().color(weak));
+        changed |= chips(ui, tr("Tongue near"), &mut resonance, &resonances);
         if changed {
             context.redesign(|design| (design.mode, design.resonance) = (mode, resonance));
         }
     });
 }
 
-const HEADINGS: [&str; 10] =
-    ["", "ceramic", "Q", "tan δ", "α", "threshold", "at", "tongue open", "power", "peak / allowed"];
+const HEADINGS: [&str; 10] = [
+    "",
+    marked("ceramic"),
+    "Q",
+    "tan δ",
+    "α",
+    marked("threshold"),
+    marked("at"),
+    marked("tongue open"),
+    marked("power"),
+    marked("peak / allowed"),
+];
 
 fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
@@ -61,13 +73,13 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     ui.spacing_mut().interact_size.y = 24.0;
     Grid::new("ceramics").num_columns(HEADINGS.len()).spacing([18.0, 4.0]).show(ui, |ui| {
         for text in HEADINGS {
-            ui.label(RichText::new(text).small().color(tokens.text_weak));
+            ui.label(RichText::new(tr(text)).small().color(tokens.text_weak));
         }
         ui.end_row();
         for (ceramic, row) in Ceramic::ALL.into_iter().zip(rows) {
             let material = ceramic.material();
             let used = present == Some(ceramic);
-            let label = if used { "in use" } else { "use" };
+            let label = if used { tr("in use") } else { tr("use") };
             if ui.add_enabled(!used, egui::Button::new(RichText::new(label).small())).clicked() {
                 adopt(context, ceramic);
             }
@@ -79,10 +91,10 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
             match row {
                 Some(Ok(row)) => found(context, ui, row),
                 Some(Err(message)) => {
-                    ui.label(RichText::new(message).small().color(tokens.warning));
+                    ui.label(RichText::new(reworded(message)).small().color(tokens.warning));
                 }
                 None => {
-                    ui.label(RichText::new("computing").small().color(tokens.text_weak));
+                    ui.label(RichText::new(tr("computing")).small().color(tokens.text_weak));
                 }
             }
             ui.end_row();
@@ -101,25 +113,29 @@ fn found(context: &Context<'_>, ui: &mut Ui, row: &MaterialRow) {
             ui.label(format!("{} Hz", significant(threshold.frequency, 4)));
         }
         None => {
-            ui.label("none");
+            ui.label(tr("none"));
             ui.label("–");
         }
     }
-    let open =
-        row.open.map_or("closed".to_owned(), |open| format!("{} Hz", significant(open.to - open.from, 3)));
+    let open = row
+        .open
+        .map_or(tr("closed").to_owned(), |open| format!("{} Hz", significant(open.to - open.from, 3)));
     let label = ui.label(open);
     if let Some(open) = row.open {
-        label.on_hover_text(format!("{} to {} Hz", significant(open.from, 5), significant(open.to, 5)));
+        label.on_hover_text(fill(
+            "{from} to {to} Hz",
+            &[("from", &significant(open.from, 5)), ("to", &significant(open.to, 5))],
+        ));
     }
     let Some(harvest) = &row.reached.harvest else {
-        ui.label(RichText::new(row.reached.motion.to_string()).color(tokens.danger));
+        ui.label(RichText::new(motion_in_words(row.reached.motion)).color(tokens.danger));
         ui.label("–");
         return;
     };
     ui.label(RichText::new(with_unit(harvest.power, "W")).color(tokens.text_strong)).on_hover_text(format!(
         "{}, {}",
-        row.reached.motion,
-        with_unit(harvest.v_rms, "V rms")
+        motion_in_words(row.reached.motion),
+        with_unit(harvest.v_rms, tr("V rms"))
     ));
     // The ceramic's own voltage, unless the user chose one.
     let limits = Limits {
@@ -133,7 +149,7 @@ fn found(context: &Context<'_>, ui: &mut Ui, row: &MaterialRow) {
         Standing::Marginal => tokens.warning,
         Standing::Exceeded => tokens.danger,
     };
-    let allowed = limits.voltage.map_or("not given".to_owned(), |(low, _)| with_unit(low, "V"));
+    let allowed = limits.voltage.map_or(tr("not given").to_owned(), |(low, _)| with_unit(low, "V"));
     let text = format!("{} / {allowed}", with_unit(harvest.demand.v_peak, "V"));
     let said: Vec<String> = checks.iter().map(safety::in_words).collect();
     ui.label(RichText::new(text).color(colour)).on_hover_text(said.join("\n"));
@@ -148,10 +164,11 @@ fn adopt(context: &mut Context<'_>, ceramic: Ceramic) {
 fn notes(context: &Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     let mode = context.view.design.mode.clamp(1, context.view.scenario.model.modes);
-    let text = format!(
+    let text = fill(
         "A ceramic sets the damping α so that mode {mode} alone has its quality factor, and its dissipation factor as a \
          conductance beside the load at the present frequency. Stiffness, mass, coupling and capacitance stay: Table 2 \
          gives none. Threshold: lowest shaking that opens the tongue; tongue open: its width at the present amplitude.",
+        &[("mode", &mode)],
     );
     ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
 }

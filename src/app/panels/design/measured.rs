@@ -7,6 +7,7 @@ use super::harvest::Measure;
 use crate::app::bench::measured::{Domain, File};
 use crate::app::command::Command;
 use crate::app::panels::{Context, explore};
+use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::view::design::Watched;
@@ -23,13 +24,13 @@ const COLUMNS: usize = 8;
 /// Draws the card with the plot.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.bench.measured.progress() {
-        Some(done) => format!("reading {:.0} %", 100.0 * done),
-        None => "drop a file anywhere on the page".to_owned(),
+        Some(done) => fill("reading {percent} %", &[("percent", &format!("{:.0}", 100.0 * done))]),
+        None => tr("drop a file anywhere on the page").to_owned(),
     };
-    context.plot_card(ui, Panel::Measured, "Measured", &hint, |context, ui| {
+    context.plot_card(ui, Panel::Measured, tr("Measured"), &hint, |context, ui| {
         let Some(file) = &context.bench.measured.file else {
-            let text = "Drop a text file here, or open one: columns of time and voltage, or of frequency and voltage. \
-                        It stays in this browser.";
+            let text = tr("Drop a text file here, or open one: columns of time and voltage, or of frequency and voltage. \
+                           It stays in this browser.");
             plot_style::no_data(ui, ui.available_rect_before_wrap(), text);
             return;
         };
@@ -42,7 +43,10 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// Voltage over time, beside the end of the run in view.
 fn over_time(context: &Context<'_>, ui: &mut Ui, file: &File) {
-    legend::legend(ui, &[(Series::Measured, "measured"), (Series::Numeric, "computed: the end of the run")]);
+    legend::legend(
+        ui,
+        &[(Series::Measured, tr("measured")), (Series::Numeric, tr("computed: the end of the run"))],
+    );
     let Some(shown) = context.shown() else { return };
     let unit = context.view.scenario.units().time;
     let first = file.drawn.first().map_or(0.0, |point| point.x);
@@ -56,11 +60,11 @@ fn over_time(context: &Context<'_>, ui: &mut Ui, file: &File) {
             curve.push(PlotPoint::new(first + (time - end + span) * unit, state[voltage]));
         });
     }
-    let (x, y) = (Axis::new("time", "t").unit("s"), Axis::new("voltage", "v").unit("V"));
+    let (x, y) = (Axis::new(tr("time"), "t").unit("s"), Axis::new(tr("voltage"), "v").unit("V"));
     plot_style::plot(ui, ("measured", file.name.as_str(), 0), &x, &y).show(ui, |plot| {
-        plot_style::series(plot, Series::Numeric, "computed", &curve);
+        plot_style::series(plot, Series::Numeric, tr("computed"), &curve);
         let colour = theme::tokens_in(plot.ctx()).theory;
-        plot_style::curve(plot, "measured", colour, Pen::Dashes(1.4, 5.0), &file.drawn);
+        plot_style::curve(plot, tr("measured"), colour, Pen::Dashes(1.4, 5.0), &file.drawn);
     });
 }
 
@@ -69,14 +73,14 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
     legend::legend(
         ui,
         &[
-            (Series::Measured, "measured"),
-            (Series::Linear, "without magnets"),
-            (Series::Stable, "stable"),
-            (Series::FromRest, "from rest"),
+            (Series::Measured, tr("measured")),
+            (Series::Linear, tr("without magnets")),
+            (Series::Stable, tr("stable")),
+            (Series::FromRest, tr("from rest")),
         ],
     );
     let (x, y) =
-        (Axis::new("excitation frequency", "f").unit("Hz"), Axis::new("voltage, rms", "v").unit("V"));
+        (Axis::new(tr("excitation frequency"), "f").unit("Hz"), Axis::new(tr("voltage, rms"), "v").unit("V"));
     let mut stable: Vec<Vec<PlotPoint>> = Vec::new();
     let (mut linear, mut reached) = (Vec::new(), Vec::new());
     if let Some(study) = context.studies.bench.harvest.study() {
@@ -93,12 +97,12 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
         reached.extend(starts.map(|(_, point)| PlotPoint::new(point.frequency, point.v_rms)));
     }
     plot_style::plot(ui, ("measured", file.name.as_str(), 1), &x, &y).include_y(0.0).show(ui, |plot| {
-        plot_style::series(plot, Series::Linear, "without magnets", &linear);
+        plot_style::series(plot, Series::Linear, tr("without magnets"), &linear);
         for run in &stable {
-            plot_style::series(plot, Series::Stable, "stable", run);
+            plot_style::series(plot, Series::Stable, tr("stable"), run);
         }
-        plot_style::points(plot, Series::FromRest, "from rest", &reached);
-        plot_style::points(plot, Series::Measured, "measured", &file.drawn);
+        plot_style::points(plot, Series::FromRest, tr("from rest"), &reached);
+        plot_style::points(plot, Series::Measured, tr("measured"), &file.drawn);
     });
 }
 
@@ -115,13 +119,13 @@ pub(super) fn over_frequency(context: &Context<'_>, watched: Watched, measure: &
 
 /// The cards beside the plot.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
-    let title = context.bench.measured.file.as_ref().map_or("File", |file| file.name.as_str());
+    let title = context.bench.measured.file.as_ref().map_or(tr("File"), |file| file.name.as_str());
     let open = context.bench.measured.file.is_some();
     let card = Card::new(title).hugging();
-    let card = if open { card.button(Icon::Close, "Close") } else { card };
+    let card = if open { card.button(Icon::Close, tr("Close")) } else { card };
     let shown = card.show(ui, |ui| {
         let tokens = theme::tokens(ui);
-        if ui.button("Open a file").clicked() {
+        if ui.button(tr("Open a file")).clicked() {
             context.commands.push(Command::OpenFile);
         }
         if let Some(error) = &context.bench.measured.error {
@@ -130,8 +134,8 @@ pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
         match &context.bench.measured.file {
             Some(file) => reading(context, ui, file),
             None => {
-                let text = "Comma, semicolon, tab or blanks between the columns, decimal point or comma, any header: \
-                            these are found out. A million rows are welcome.";
+                let text = tr("Comma, semicolon, tab or blanks between the columns, decimal point or comma, any header: \
+                               these are found out. A million rows are welcome.");
                 ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
             }
         }
@@ -141,7 +145,7 @@ pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
     }
     if let Some(file) = context.bench.measured.file.as_ref().filter(|file| file.measures.is_some()) {
         ui.add_space(explore::GAP);
-        Card::new("Compared").hugging().show(ui, |ui| compared(context, ui, file));
+        Card::new(tr("Compared")).hugging().show(ui, |ui| compared(context, ui, file));
     }
 }
 
@@ -165,14 +169,14 @@ fn reading(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
     let label = |ui: &mut Ui, text: &str| {
         ui.label(RichText::new(text).small().color(weak));
     };
-    label(ui, "first column is");
+    label(ui, tr("first column is"));
     chips(
         ui,
-        "First column is",
+        tr("First column is"),
         &mut reading.domain,
-        &[(Domain::Time, "time"), (Domain::Frequency, "frequency")],
+        &[(Domain::Time, tr("time")), (Domain::Frequency, tr("frequency"))],
     );
-    chips(ui, "Column of the first", &mut reading.columns.x, &columns);
+    chips(ui, tr("Column of the first"), &mut reading.columns.x, &columns);
     let units: &[(f64, &str)] = match reading.domain {
         Domain::Time => &[(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")],
         Domain::Frequency => &[(1.0, "Hz"), (1e3, "kHz"), (std::f64::consts::FRAC_1_PI / 2.0, "rad/s")],
@@ -180,15 +184,15 @@ fn reading(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
     if reading.domain != file.reading.domain {
         reading.columns.x_unit = 1.0;
     }
-    chips(ui, "Unit of the first", &mut reading.columns.x_unit, units);
-    label(ui, if reading.domain == Domain::Time { "voltage" } else { "voltage, rms unless scaled" });
-    chips(ui, "Column of the voltage", &mut reading.columns.y, &columns);
-    let volts = [(1.0, "V"), (1e-3, "mV"), (std::f64::consts::FRAC_1_SQRT_2, "V amplitude"), (1e3, "kV")];
-    chips(ui, "Unit of the voltage", &mut reading.columns.y_unit, &volts);
+    chips(ui, tr("Unit of the first"), &mut reading.columns.x_unit, units);
+    label(ui, if reading.domain == Domain::Time { tr("voltage") } else { tr("voltage, rms unless scaled") });
+    chips(ui, tr("Column of the voltage"), &mut reading.columns.y, &columns);
+    let volts = [(1.0, "V"), (1e-3, "mV"), (std::f64::consts::FRAC_1_SQRT_2, tr("V amplitude")), (1e3, "kV")];
+    chips(ui, tr("Unit of the voltage"), &mut reading.columns.y_unit, &volts);
     let rows = match file.points.len() {
         0 => String::new(),
-        1 => "1 row read".to_owned(),
-        rows => format!("{rows} rows read"),
+        1 => tr("1 row read").to_owned(),
+        rows => fill("{rows} rows read", &[("rows", &rows)]),
     };
     label(ui, &rows);
     if reading != file.reading {
@@ -206,24 +210,48 @@ fn compared(context: &Context<'_>, ui: &mut Ui, file: &File) {
     let (first, last) = (file.points.first(), file.points.last());
     if let (Some(first), Some(last)) = (first, last) {
         let unit = if file.reading.domain == Domain::Time { "s" } else { "Hz" };
-        line(ui, format!("from {} to {} {unit}", significant(first[0], 5), significant(last[0], 5)));
+        line(
+            ui,
+            fill(
+                "from {from} to {to} {unit}",
+                &[("from", &significant(first[0], 5)), ("to", &significant(last[0], 5)), ("unit", &unit)],
+            ),
+        );
     }
     if file.reading.domain == Domain::Frequency {
         let highest = file.points.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
         if let Some([frequency, volts]) = highest {
-            line(ui, format!("highest {} at {} Hz", with_unit(*volts, "V"), significant(*frequency, 5)));
+            line(
+                ui,
+                fill(
+                    "highest {volts} at {hertz} Hz",
+                    &[("volts", &with_unit(*volts, "V")), ("hertz", &significant(*frequency, 5))],
+                ),
+            );
         }
         return;
     }
-    line(ui, format!("measured {}, peak {} (about its mean)", with_unit(rms, "V rms"), with_unit(peak, "V")));
+    line(
+        ui,
+        fill(
+            "measured {rms}, peak {peak} (about its mean)",
+            &[("rms", &with_unit(rms, tr("V rms"))), ("peak", &with_unit(peak, "V"))],
+        ),
+    );
     let found = context.studies.bench.operating(&context.view.scenario);
     if let Some((Ok(operating), true)) = found
         && let Some(harvest) = &operating.reached.harvest
     {
         let (v_rms, v_peak) = (harvest.v_rms, harvest.demand.v_peak);
-        line(ui, format!("computed {}, peak {}", with_unit(v_rms, "V rms"), with_unit(v_peak, "V")));
+        line(
+            ui,
+            fill(
+                "computed {rms}, peak {peak}",
+                &[("rms", &with_unit(v_rms, tr("V rms"))), ("peak", &with_unit(v_peak, "V"))],
+            ),
+        );
         if v_rms > 0.0 {
-            line(ui, format!("measured over computed: {}", significant(rms / v_rms, 3)));
+            line(ui, fill("measured over computed: {ratio}", &[("ratio", &significant(rms / v_rms, 3))]));
         }
     }
 }

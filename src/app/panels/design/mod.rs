@@ -16,6 +16,7 @@ mod trust;
 use egui::Ui;
 
 use super::{Context, explore};
+use crate::app::text::tr;
 use crate::app::view::Panel;
 use crate::app::view::design::Page;
 use crate::app::widgets::tabs;
@@ -51,12 +52,12 @@ pub(in crate::app) fn plot_alone(context: &mut Context<'_>, ui: &mut Ui, panel: 
 
 fn choose(context: &mut Context<'_>, ui: &mut Ui) {
     let pages = [
-        (Page::Harvest, "Harvest"),
-        (Page::Load, "Load"),
-        (Page::Materials, "Materials"),
-        (Page::Trust, "Trust"),
-        (Page::Search, "Search"),
-        (Page::Measured, "Measured"),
+        (Page::Harvest, tr("Harvest")),
+        (Page::Load, tr("Load")),
+        (Page::Materials, tr("Materials")),
+        (Page::Trust, tr("Trust")),
+        (Page::Search, tr("Search")),
+        (Page::Measured, tr("Measured")),
     ];
     let mut page = context.view.design.page;
     if tabs(ui, &mut page, &pages) {

@@ -4,6 +4,7 @@ use egui_plot::{PlotPoint, PlotUi};
 
 use crate::app::bench;
 use crate::app::session::Session;
+use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::View;
 use crate::app::widgets::number::with_unit;
@@ -60,9 +61,9 @@ impl Safety {
     /// Draws horizontal limits of a plot of voltages (V), with their names from x = `left`.
     pub(super) fn voltage_lines(&self, plot: &mut PlotUi<'_>, left: f64, coordinate: &dyn Fn(f64) -> f64) {
         if let Some((low, high)) = self.limits.voltage {
-            line(plot, [left, coordinate(low)], "largest voltage allowed");
+            line(plot, [left, coordinate(low)], tr("largest voltage allowed"));
             if high > low {
-                line(plot, [left, coordinate(high)], "upper end of the range published");
+                line(plot, [left, coordinate(high)], tr("upper end of the range published"));
             }
         }
     }
@@ -72,9 +73,9 @@ impl Safety {
         let (low, high) = self.tip();
         let closes = self.gap.is_some_and(|gap| self.limits.gap * gap < self.limits.deflection);
         let contact =
-            if self.limits.gap >= 1.0 { "contact of the magnets" } else { "part of the gap allowed" };
-        line(plot, [left, low], if closes { contact } else { "largest deflection allowed" });
-        line(plot, [left, high], "largest deflection allowed");
+            if self.limits.gap >= 1.0 { tr("contact of the magnets") } else { tr("part of the gap allowed") };
+        line(plot, [left, low], if closes { contact } else { tr("largest deflection allowed") });
+        line(plot, [left, high], tr("largest deflection allowed"));
     }
 }
 
@@ -108,22 +109,28 @@ pub(super) fn beyond<T>(
 pub(in crate::app) fn in_words(check: &Check) -> String {
     let percent = |value: f64| crate::app::widgets::number::significant(100.0 * value, 2);
     match check.kind {
-        LimitKind::Voltage => {
-            format!("peak {}, limit {}", with_unit(check.value, "V"), with_unit(check.limit, "V"))
-        }
-        LimitKind::Gap if check.limit < 1.0 => {
-            format!("gap closed {} %, limit {} %", percent(check.value), percent(check.limit))
-        }
-        LimitKind::Gap => format!("tip closes {} % of the gap", percent(check.value)),
-        LimitKind::Deflection => {
-            format!("deflection {} %, limit {} % of L", percent(check.value), percent(check.limit))
-        }
+        LimitKind::Voltage => fill(
+            "peak {value}, limit {limit}",
+            &[("value", &with_unit(check.value, "V")), ("limit", &with_unit(check.limit, "V"))],
+        ),
+        LimitKind::Gap if check.limit < 1.0 => fill(
+            "gap closed {value} %, limit {limit} %",
+            &[("value", &percent(check.value)), ("limit", &percent(check.limit))],
+        ),
+        LimitKind::Gap => fill("tip closes {percent} % of the gap", &[("percent", &percent(check.value))]),
+        LimitKind::Deflection => fill(
+            "deflection {value} %, limit {limit} % of L",
+            &[("value", &percent(check.value)), ("limit", &percent(check.limit))],
+        ),
         LimitKind::Slope => {
             let digits = |value| crate::app::widgets::number::significant(value, 2);
-            format!("slope {}, limit {} rad", digits(check.value), digits(check.limit))
+            fill(
+                "slope {value}, limit {limit} rad",
+                &[("value", &digits(check.value)), ("limit", &digits(check.limit))],
+            )
         }
         LimitKind::Sag => {
-            format!("sags by {} % of its length under gravity", percent(check.value))
+            fill("sags by {percent} % of its length under gravity", &[("percent", &percent(check.value))])
         }
     }
 }

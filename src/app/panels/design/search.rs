@@ -6,7 +6,9 @@ use egui_plot::PlotBounds;
 use crate::app::bench::{self, questions};
 use crate::app::colours;
 use crate::app::command::Command;
+use crate::app::panels::computing;
 use crate::app::panels::{Context, device, explore};
+use crate::app::text::{fill, reworded, tr, within};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::view::design::{Aim, Side};
@@ -24,10 +26,10 @@ use crate::model::Dimension;
 /// Draws the map's card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.bench.map.study() {
-        Some(map) if !map.finished() => format!("computing {:.0} %", 100.0 * map.progress()),
-        _ => "drag or click to go there".to_owned(),
+        Some(map) if !map.finished() => computing(map.progress()),
+        _ => tr("drag or click to go there").to_owned(),
     };
-    context.plot_card(ui, Panel::DesignMap, "Map", &hint, |context, ui| {
+    context.plot_card(ui, Panel::DesignMap, tr("Map"), &hint, |context, ui| {
         let Some(map) = context.studies.bench.map.study() else { return };
         header(context, ui, map);
         match map.failure() {
@@ -51,11 +53,11 @@ fn unit(aim: Aim) -> &'static str {
 /// What is mapped, with its unit.
 fn mapped(aim: Aim) -> &'static str {
     match aim {
-        Aim::Power => "power in the load [W]",
-        Aim::PerG2 => "power per g² [W/g²]",
-        Aim::Voltage => "voltage, rms [V]",
-        Aim::Band => "width of the band [Hz]",
-        Aim::Threshold => "lowest excitation β of the resonance",
+        Aim::Power => tr("power in the load [W]"),
+        Aim::PerG2 => tr("power per g² [W/g²]"),
+        Aim::Voltage => tr("voltage, rms [V]"),
+        Aim::Band => tr("width of the band [Hz]"),
+        Aim::Threshold => tr("lowest excitation β of the resonance"),
     }
 }
 
@@ -70,16 +72,16 @@ fn in_digits(value: f64, aim: Aim) -> String {
 fn header(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let mut aim = context.view.design.search.aim;
     let choices = [
-        (Aim::Power, "power"),
-        (Aim::PerG2, "per g²"),
-        (Aim::Voltage, "voltage"),
-        (Aim::Band, "band"),
-        (Aim::Threshold, "threshold"),
+        (Aim::Power, tr("power")),
+        (Aim::PerG2, tr("per g²")),
+        (Aim::Voltage, tr("voltage")),
+        (Aim::Band, tr("band")),
+        (Aim::Threshold, tr("threshold")),
     ];
     let tokens = theme::tokens(ui);
     let (low, high) = extremes(map);
     ui.horizontal_wrapped(|ui| {
-        if chips(ui, "Mapped", &mut aim, &choices) {
+        if chips(ui, tr("Mapped"), &mut aim, &choices) {
             context.redesign(|design| design.search.pursue(aim));
         }
     });
@@ -87,7 +89,10 @@ fn header(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
         let (from, to) = if aim == Aim::Threshold { (high, low) } else { (0.0, high) };
         colour_bar(ui, &in_digits(from, aim), &in_digits(to, aim), &colours::sequential);
     });
-    swatches(ui, &[(tokens.danger, "hatched: beyond a limit"), (tokens.track, "no motion, no device")]);
+    swatches(
+        ui,
+        &[(tokens.danger, tr("hatched: beyond a limit")), (tokens.track, tr("no motion, no device"))],
+    );
 }
 
 /// Lowest and highest value known.
@@ -153,10 +158,10 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
                 let values = map.values(at);
                 let at = egui_plot::PlotPoint::new(place(0, values[0]), place(1, values[1]));
                 let name = evaluation.value.map_or(String::new(), |value| in_digits(value, search.aim));
-                plot_style::special_point(plot, &format!("best: {name}"), at);
+                plot_style::special_point(plot, &fill("best: {name}", &[("name", &name)]), at);
             }
         });
-    let drag = plot_style::operating_point(ui, &shown, "Device in view", here);
+    let drag = plot_style::operating_point(ui, &shown, tr("Device in view"), here);
     if let Some(moved) = drag.moved {
         let mut device = present;
         for i in [0, 1] {
@@ -177,16 +182,16 @@ fn adopt(context: &mut Context<'_>, device: crate::model::Device) {
 
 /// The cards beside the map.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
-    Card::new("Varied").hint("at the base's amplitude").hugging().show(ui, |ui| sides(context, ui));
+    Card::new(tr("Varied")).hint(tr("at the base's amplitude")).hugging().show(ui, |ui| sides(context, ui));
     ui.add_space(explore::GAP);
-    Card::new("Search").hugging().show(ui, |ui| search(context, ui));
+    Card::new(tr("Search")).hugging().show(ui, |ui| search(context, ui));
     ui.add_space(explore::GAP);
-    Card::new("Limits").hugging().show(ui, |ui| super::limits::controls(context, ui));
+    Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
 }
 
 fn sides(context: &mut Context<'_>, ui: &mut Ui) {
     let mut search = context.view.design.search;
-    let names = ["Across", "Up"];
+    let names = [tr("Across"), tr("Up")];
     for (i, name) in names.into_iter().enumerate() {
         side(context, ui, name, &mut search.sides[i]);
     }
@@ -197,11 +202,11 @@ fn sides(context: &mut Context<'_>, ui: &mut Ui) {
         search.sides[1 - changed] = Side::of(before[changed].dimension);
     }
     let mut third = search.third.is_some();
-    if chips(ui, "Third", &mut third, &[(false, "two"), (true, "three in the search")]) {
+    if chips(ui, tr("Third"), &mut third, &[(false, tr("two")), (true, tr("three in the search"))]) {
         search.third = third.then(|| Side::of(Dimension::MagnetDistance));
     }
     if let Some(third) = &mut search.third {
-        side(context, ui, "Besides", third);
+        side(context, ui, tr("Besides"), third);
     }
     let doubled =
         search.third.is_some_and(|third| search.sides.iter().any(|side| side.dimension == third.dimension));
@@ -238,7 +243,7 @@ fn side(context: &Context<'_>, ui: &mut Ui, name: &str, side: &mut Side) {
         let (mut from, mut to) = (round_significant(factor * low, 6), round_significant(factor * high, 6));
         let before = (from, to);
         let (least, most) = ((factor * usual.0).min(from), (factor * usual.1).max(to));
-        for (end, value) in [("From", &mut from), ("To", &mut to)] {
+        for (end, value) in [(tr("From"), &mut from), (tr("To"), &mut to)] {
             let slider = ParameterSlider::new(end, "", value, least..=most).unit(unit).compact();
             let slider = if side.dimension.logarithmic() { slider.logarithmic() } else { slider };
             slider.tooltip(text).show(ui);
@@ -256,17 +261,17 @@ fn whose(dimension: Dimension) -> String {
         Dimension::FluxDensity
         | Dimension::MagnetLength
         | Dimension::MagnetRadius
-        | Dimension::MagnetArea => "magnets: ",
-        Dimension::MagnetDistance => "magnets: ",
+        | Dimension::MagnetArea => tr("magnets: "),
+        Dimension::MagnetDistance => tr("magnets: "),
         Dimension::BeamLength | Dimension::BeamMass | Dimension::YoungsModulus | Dimension::SecondMoment => {
-            "beam: "
+            tr("beam: ")
         }
-        Dimension::Viscosity => "beam: ",
-        Dimension::CeramicThickness | Dimension::LossTangent => "ceramic: ",
-        Dimension::BaseAmplitude => "base: ",
+        Dimension::Viscosity => tr("beam: "),
+        Dimension::CeramicThickness | Dimension::LossTangent => tr("ceramic: "),
+        Dimension::BaseAmplitude => tr("base: "),
         _ => "",
     };
-    if of.is_empty() { name.to_owned() } else { format!("{of}{}", name.to_lowercase()) }
+    if of.is_empty() { name.to_owned() } else { format!("{of}{}", within(name)) }
 }
 
 fn search(context: &mut Context<'_>, ui: &mut Ui) {
@@ -274,8 +279,8 @@ fn search(context: &mut Context<'_>, ui: &mut Ui) {
     let small = |text: String| RichText::new(text).small();
     let mut generations = context.view.design.search.generations;
     ui.horizontal_wrapped(|ui| {
-        ui.label(small("generations".to_owned()).color(tokens.text_weak));
-        if chips(ui, "Generations", &mut generations, &[(10, "10"), (20, "20"), (60, "60")]) {
+        ui.label(small(tr("generations").to_owned()).color(tokens.text_weak));
+        if chips(ui, tr("Generations"), &mut generations, &[(10, "10"), (20, "20"), (60, "60")]) {
             context.redesign(|design| design.search.generations = generations);
         }
     });
@@ -284,22 +289,25 @@ fn search(context: &mut Context<'_>, ui: &mut Ui) {
         super::bands::least_slider(context, ui, least);
     }
     let found = context.studies.bench.found();
-    let label = if found.is_some() { "Search again from here" } else { "Find the best within the limits" };
+    let label =
+        if found.is_some() { tr("Search again from here") } else { tr("Find the best within the limits") };
     if ui.button(label).clicked() {
         context.commands.push(Command::Find(true));
     }
     if let Some(reason) = &context.bench.refusal {
-        ui.add(egui::Label::new(small(format!("{reason}.")).color(tokens.danger)).wrap());
+        ui.add(egui::Label::new(small(reworded(reason) + ".").color(tokens.danger)).wrap());
     }
     let Some(study) = found else {
-        let text = "Varies what is chosen above by differential evolution; the device in view is among the first \
-                    candidates, and the same search goes the same way again.";
+        let text = tr(
+            "Varies what is chosen above by differential evolution; the device in view is among the first \
+             candidates, and the same search goes the same way again.",
+        );
         ui.add(egui::Label::new(small(text.to_owned()).color(tokens.text_weak)).wrap());
         return;
     };
     if !study.finished() {
         ui.horizontal(|ui| {
-            if ui.button("Stop").clicked() {
+            if ui.button(tr("Stop")).clicked() {
                 context.commands.push(Command::Find(false));
             }
             ui.add(egui::ProgressBar::new(study.progress() as f32).desired_height(8.0));
@@ -321,14 +329,17 @@ fn result(context: &mut Context<'_>, ui: &mut Ui, study: &FindStudy, best: &Cand
         Objective::Band { .. } => Aim::Band,
         Objective::Threshold(_) => Aim::Threshold,
     };
-    let value = best.evaluation.value.map_or("no lasting motion".to_owned(), |value| in_digits(value, aim));
+    let value =
+        best.evaluation.value.map_or(tr("no lasting motion").to_owned(), |value| in_digits(value, aim));
     let kept = best.evaluation.violation == 0.0;
     let colour = if kept { tokens.ok } else { tokens.danger };
     ui.label(RichText::new(value).font(crate::app::fonts::semibold(theme::size::HEADING)).color(colour));
-    let text = format!(
-        "best of {} candidates, {}",
-        study.visited().len(),
-        if kept { "within the limits" } else { "none keeps the limits" }
+    let text = fill(
+        "best of {count} candidates, {kept}",
+        &[
+            ("count", &study.visited().len()),
+            ("kept", &if kept { tr("within the limits") } else { tr("none keeps the limits") }),
+        ],
     );
     ui.label(RichText::new(text).small().color(tokens.text_weak));
     for (variable, value) in study.question().variables.iter().zip(&best.values) {
@@ -339,11 +350,11 @@ fn result(context: &mut Context<'_>, ui: &mut Ui, study: &FindStudy, best: &Cand
         }
     }
     ui.horizontal(|ui| {
-        if ui.button("Use it").clicked() {
+        if ui.button(tr("Use it")).clicked() {
             let taken = study.scenario(best).map(Box::new).map_err(|error| error.to_string());
             context.commands.push(Command::Adopt(taken));
         }
-        if study.finished() && ui.button("Close").clicked() {
+        if study.finished() && ui.button(tr("Close")).clicked() {
             context.commands.push(Command::Find(false));
         }
     });

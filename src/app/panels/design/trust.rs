@@ -2,7 +2,9 @@
 
 use egui::{Grid, RichText, Ui};
 
+use crate::app::panels::computing;
 use crate::app::panels::{Context, explore};
+use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips};
@@ -15,7 +17,7 @@ use crate::theory::Resonance;
 
 /// The model that stands for the truth.
 const BEST: ModelChoice = ModelChoice { modes: 4, force: ForceLaw::Exact };
-const NAMES: [&str; 4] = ["quadratic", "cubic", "Taylor 5", "exact"];
+const NAMES: [&str; 4] = [marked("quadratic"), marked("cubic"), marked("Taylor 5"), marked("exact")];
 /// Relative difference from the exact law with most modes that counts as a good one, and as a bad one.
 const GOOD: f64 = 0.05;
 const BAD: f64 = 0.25;
@@ -38,22 +40,22 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 
 fn switch(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
-    Card::new("At the present amplitude").hugging().show(ui, |ui| {
+    Card::new(tr("At the present amplitude")).hugging().show(ui, |ui| {
         laws(context, ui);
         ui.add_space(8.0);
         let present = context.view.scenario.model;
         if present == BEST {
             let back = context.bench.before;
-            let text = format!("Back to {}", in_words(back));
+            let text = fill("Back to {model}", &[("model", &in_words(back))]);
             if ui.button(text).clicked() {
                 adopt(context, back);
             }
-        } else if ui.button("Switch the whole page to the exact law, 4 modes").clicked() {
+        } else if ui.button(tr("Switch the whole page to the exact law, 4 modes")).clicked() {
             adopt(context, BEST);
         }
-        let text = format!(
-            "The page computes with {}. Click a number in the table to compute with that model.",
-            in_words(present)
+        let text = fill(
+            "The page computes with {model}. Click a number in the table to compute with that model.",
+            &[("model", &in_words(present))],
         );
         ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
     });
@@ -61,11 +63,14 @@ fn switch(context: &mut Context<'_>, ui: &mut Ui) {
 
 fn in_words(model: ModelChoice) -> String {
     let law = match model.force {
-        ForceLaw::Quadratic => "the quadratic law".to_owned(),
-        ForceLaw::Taylor(degree) => format!("Taylor {degree}"),
-        ForceLaw::Exact => "the exact law".to_owned(),
+        ForceLaw::Quadratic => tr("the quadratic law").to_owned(),
+        ForceLaw::Taylor(degree) => fill("Taylor {degree}", &[("degree", &degree)]),
+        ForceLaw::Exact => tr("the exact law").to_owned(),
     };
-    format!("{law}, {} mode{}", model.modes, if model.modes == 1 { "" } else { "s" })
+    match model.modes {
+        1 => fill("{law}, 1 mode", &[("law", &law)]),
+        modes => fill("{law}, {modes} modes", &[("law", &law), ("modes", &modes)]),
+    }
 }
 
 fn adopt(context: &mut Context<'_>, model: ModelChoice) {
@@ -81,7 +86,7 @@ fn laws(context: &Context<'_>, ui: &mut Ui) {
     let found = context.studies.bench.operating(&context.view.scenario);
     let Some((Ok(operating), _)) = found else { return };
     let Some(harvest) = &operating.reached.harvest else {
-        ui.label("The motion ends: there is no amplitude to judge.");
+        ui.label(tr("The motion ends: there is no amplitude to judge."));
         return;
     };
     let Ok((system, _)) = context.view.scenario.validate() else { return };
@@ -90,35 +95,39 @@ fn laws(context: &Context<'_>, ui: &mut Ui) {
     ui.spacing_mut().interact_size.y = 20.0;
     Grid::new("laws").num_columns(3).spacing([18.0, 4.0]).show(ui, |ui| {
         let heads = [
-            "force law".to_owned(),
-            format!("closest, {} mm", significant(units.millimetres(low), 3)),
-            format!("farthest, {} mm", significant(units.millimetres(high), 3)),
+            tr("force law").to_owned(),
+            fill("closest, {distance} mm", &[("distance", &significant(units.millimetres(low), 3))]),
+            fill("farthest, {distance} mm", &[("distance", &significant(units.millimetres(high), 3))]),
         ];
         for head in heads {
             ui.label(RichText::new(head).small().color(tokens.text_weak));
         }
         ui.end_row();
         for (law, name) in LAWS.into_iter().zip(NAMES).take(3) {
-            ui.label(name);
+            ui.label(tr(name));
             for tip in [low, high] {
                 let error = law_error(&system, law, tip);
                 let colour = error.rest.map_or(tokens.danger, |off| shade(off.abs(), tokens));
                 let label = ui.label(RichText::new(off(&error)).color(colour));
                 if let Some(whole) = error.whole {
                     let percent = significant(100.0 * whole, 2);
-                    label.on_hover_text(format!("{percent} % of the whole restoring force at the tip"));
+                    label.on_hover_text(fill(
+                        "{percent} % of the whole restoring force at the tip",
+                        &[("percent", &percent)],
+                    ));
                 }
             }
             ui.end_row();
         }
     });
-    let text =
-        "How much more (+) or less (−) than the magnets' own force each law gives beyond its linear part.";
+    let text = tr(
+        "How much more (+) or less (−) than the magnets' own force each law gives beyond its linear part.",
+    );
     ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
 }
 
 fn off(error: &LawError) -> String {
-    error.rest.map_or("contact".to_owned(), |rest| {
+    error.rest.map_or(tr("contact").to_owned(), |rest| {
         let sign = if rest > 0.0 { "+" } else { "" };
         format!("{sign}{} %", significant(100.0 * rest, 2))
     })
@@ -137,10 +146,10 @@ fn shade(off: f64, tokens: &theme::Tokens) -> egui::Color32 {
 /// The quantity in view over modes and laws.
 fn convergence(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.bench.trust.study() {
-        Some(table) if !table.finished() => format!("computing {:.0} %", 100.0 * table.progress()),
+        Some(table) if !table.finished() => computing(table.progress()),
         _ => String::new(),
     };
-    Card::new("Over modes and force laws").hint(&hint).hugging().show(ui, |ui| {
+    Card::new(tr("Over modes and force laws")).hint(&hint).hugging().show(ui, |ui| {
         choose(context, ui);
         ui.add_space(4.0);
         table(context, ui);
@@ -154,17 +163,17 @@ fn choose(context: &mut Context<'_>, ui: &mut Ui) {
         _ => context.view.design.resonance,
     };
     let choices = [
-        (Quantity::Power, "power"),
-        (Quantity::Voltage, "voltage"),
-        (Quantity::Tip, "tip"),
-        (Quantity::Threshold(threshold), "threshold"),
+        (Quantity::Power, tr("power")),
+        (Quantity::Voltage, tr("voltage")),
+        (Quantity::Tip, tr("tip")),
+        (Quantity::Threshold(threshold), tr("threshold")),
     ];
     ui.horizontal_wrapped(|ui| {
-        let mut changed = chips(ui, "Compared", &mut quantity, &choices);
+        let mut changed = chips(ui, tr("Compared"), &mut quantity, &choices);
         if let Quantity::Threshold(resonance) = &mut quantity {
             let resonances =
                 [(Resonance::First, "2ω₁"), (Resonance::Sum, "ω₁+ω₂"), (Resonance::Second, "2ω₂")];
-            changed |= chips(ui, "Threshold of", resonance, &resonances);
+            changed |= chips(ui, tr("Threshold of"), resonance, &resonances);
         }
         if changed {
             context.redesign(|design| design.quantity = quantity);
@@ -182,9 +191,9 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     ui.spacing_mut().interact_size.y = 24.0;
     egui::ScrollArea::horizontal().id_salt("trust").show(ui, |ui| {
         Grid::new("trust").num_columns(LAWS.len() + 1).spacing([16.0, 3.0]).show(ui, |ui| {
-            ui.label(RichText::new("modes").small().color(tokens.text_weak));
+            ui.label(RichText::new(tr("modes")).small().color(tokens.text_weak));
             for name in NAMES {
-                ui.label(RichText::new(name).small().color(tokens.text_weak));
+                ui.label(RichText::new(tr(name)).small().color(tokens.text_weak));
             }
             ui.end_row();
             for (row, modes) in (1..=MAX_MODES).enumerate() {
@@ -210,27 +219,29 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
             }
         });
     });
-    let text = "From rest. Coloured by the difference from 8 modes under the exact law: green to 5 %, amber to 25 %. \
-                Motions of different classes do not converge to each other.";
+    let text = tr(
+        "From rest. Coloured by the difference from 8 modes under the exact law: green to 5 %, amber to 25 %. \
+         Motions of different classes do not converge to each other.",
+    );
     ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
 }
 
 /// An entry in digits, and what to say about it.
 fn in_a_cell(entry: Option<Result<&TrustEntry, &str>>, quantity: Quantity) -> (String, String) {
     let entry = match entry {
-        None => return ("…".to_owned(), "computing".to_owned()),
-        Some(Err(message)) => return ("–".to_owned(), message.to_owned()),
+        None => return ("…".to_owned(), tr("computing").to_owned()),
+        Some(Err(message)) => return ("–".to_owned(), reworded(message)),
         Some(Ok(entry)) => entry,
     };
-    let said = entry.motion.map_or(String::new(), |motion| motion.to_string());
+    let said = entry.motion.map_or(String::new(), motion_in_words);
     let text = match (entry.value, quantity, entry.motion) {
         (Some(value), Quantity::Power, _) => with_unit(value, "W"),
         (Some(value), Quantity::Voltage, _) => with_unit(value, "V"),
         (Some(value), Quantity::Tip, _) => format!("{} mm", significant(value, 3)),
         (Some(value), Quantity::Threshold(_), _) => significant(value, 4),
-        (None, _, Some(Motion::Contact { .. })) => "contact".to_owned(),
-        (None, _, Some(_)) => "escape".to_owned(),
-        (None, _, None) => "none".to_owned(),
+        (None, _, Some(Motion::Contact { .. })) => tr("contact").to_owned(),
+        (None, _, Some(_)) => tr("escape").to_owned(),
+        (None, _, None) => tr("none").to_owned(),
     };
     (text, said)
 }

@@ -12,6 +12,7 @@ use crate::app::command::Command;
 use crate::app::lessons::course::{self, Action, Progress};
 use crate::app::lessons::data::{Goal, Question, Step};
 use crate::app::lessons::{Lesson, LessonId};
+use crate::app::text::{fill, tr};
 use crate::app::widgets::icon::BUTTON_SIDE;
 use crate::app::widgets::{Icon, icon_button};
 use crate::app::{fonts, theme};
@@ -107,9 +108,9 @@ fn below(context: &mut Context<'_>, ui: &mut Ui, shown: Shown, frame: Frame, pla
     panel.resizable(false).show_separator_line(false).frame(frame).show(ui, |ui| {
         ui.horizontal(|ui| {
             let (icon, label) = if folded {
-                (Icon::ChevronRight, "Unfold the lesson")
+                (Icon::ChevronRight, tr("Unfold the lesson"))
             } else {
-                (Icon::ChevronDown, "Fold the lesson")
+                (Icon::ChevronDown, tr("Fold the lesson"))
             };
             if icon_button(ui, icon, label).clicked() {
                 folded = !folded;
@@ -189,7 +190,7 @@ fn heading_in_row(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
 }
 
 fn place_in_words(shown: Shown) -> String {
-    format!("Step {} of {}", shown.number, shown.lesson.steps.len())
+    fill("Step {number} of {count}", &[("number", &shown.number), ("count", &shown.lesson.steps.len())])
 }
 
 /// A bar a step, filled up to the one in view.
@@ -238,7 +239,7 @@ fn boxed(ui: &mut Ui, edge: Color32, contents: &mut dyn FnMut(&mut Ui)) {
 
 fn to_do(context: &mut Context<'_>, ui: &mut Ui, goal: &Goal, reached: bool) {
     let tokens = theme::tokens(ui);
-    let (edge, lead) = if reached { (tokens.ok, "✓ Done") } else { (tokens.accent, "Your turn") };
+    let (edge, lead) = if reached { (tokens.ok, tr("✓ Done")) } else { (tokens.accent, tr("Your turn")) };
     boxed(ui, edge, &mut |ui| {
         ui.label(RichText::new(lead).font(fonts::semibold(theme::size::BODY)).color(edge));
         text::paragraph(ui, goal.task.get(), if reached { tokens.text_weak } else { tokens.text });
@@ -248,7 +249,7 @@ fn to_do(context: &mut Context<'_>, ui: &mut Ui, goal: &Goal, reached: bool) {
             return;
         }
         ui.add_space(2.0);
-        if ui.add(Button::new("Show me").stroke(egui::Stroke::new(1.0, edge))).clicked() {
+        if ui.add(Button::new(tr("Show me")).stroke(egui::Stroke::new(1.0, edge))).clicked() {
             context.commands.push(Command::Lesson(Action::Show));
         }
     });
@@ -286,20 +287,21 @@ fn walk(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
 }
 
 fn leave(context: &mut Context<'_>, ui: &mut Ui) {
-    if icon_button(ui, Icon::Close, "Leave the lesson").clicked() {
+    if icon_button(ui, Icon::Close, tr("Leave the lesson")).clicked() {
         context.commands.push(Command::Lesson(Action::Leave));
     }
 }
 
 fn restart(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
-    if shown.step.view.is_some() && icon_button(ui, Icon::Reset, "Set the page as this step began").clicked()
+    if shown.step.view.is_some()
+        && icon_button(ui, Icon::Reset, tr("Set the page as this step began")).clicked()
     {
         context.commands.push(Command::Lesson(Action::Restart));
     }
 }
 
 fn back(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
-    if ui.add_enabled(shown.number > 1, Button::new("Back")).clicked() {
+    if ui.add_enabled(shown.number > 1, Button::new(tr("Back"))).clicked() {
         context.commands.push(Command::Lesson(Action::GoTo(shown.number - 1)));
     }
 }
@@ -307,8 +309,11 @@ fn back(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
 /// Lit once the step is done; before that it goes on as well.
 fn next(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
     let tokens = theme::tokens(ui);
-    let (words, action) =
-        if shown.is_last() { ("Finish", Action::Finish) } else { ("Next", Action::GoTo(shown.number + 1)) };
+    let (words, action) = if shown.is_last() {
+        (tr("Finish"), Action::Finish)
+    } else {
+        (tr("Next"), Action::GoTo(shown.number + 1))
+    };
     let button = if shown.is_done() {
         let words = RichText::new(words).font(fonts::semibold(theme::size::BODY)).color(tokens.on_accent);
         Button::new(words).fill(tokens.accent)

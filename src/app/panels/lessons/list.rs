@@ -8,6 +8,7 @@ use crate::app::command::Command;
 use crate::app::lessons::course::Action;
 use crate::app::lessons::{Lesson, LessonId};
 use crate::app::panels::explore::GAP;
+use crate::app::text::{fill, tr};
 use crate::app::widgets::{BadgeKind, badge};
 use crate::app::{fonts, theme};
 
@@ -42,17 +43,21 @@ fn introduction(context: &Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     let done = LessonId::all().filter(|id| context.course.is_finished(*id)).count();
     ui.horizontal_wrapped(|ui| {
-        let title = RichText::new("Guided lessons").font(fonts::semibold(theme::size::HEADING));
+        let title = RichText::new(tr("Guided lessons")).font(fonts::semibold(theme::size::HEADING));
         ui.label(title.color(tokens.text_strong));
         if done > 0 {
-            badge(ui, BadgeKind::Converged, &format!("{done} of {} done", LessonId::all().count()));
+            badge(
+                ui,
+                BadgeKind::Converged,
+                &fill("{done} of {count} done", &[("done", &done), ("count", &LessonId::all().count())]),
+            );
         }
     });
     ui.scope(|ui| {
         ui.set_max_width(MEASURE.min(ui.available_width()));
-        let words = "From linear resonance to energy from a doubled period. Each lesson sets the page, gives you \
-                     something to do, and says why it came out so. A lesson can be left at any step; Undo brings \
-                     back what you had before.";
+        let words = tr("From linear resonance to energy from a doubled period. Each lesson sets the page, gives you \
+                        something to do, and says why it came out so. A lesson can be left at any step; Undo brings \
+                        back what you had before.");
         text::paragraph(ui, words, tokens.text_weak);
     });
 }
@@ -63,12 +68,14 @@ fn card(context: &Context<'_>, ui: &mut Ui, id: LessonId, lesson: &Lesson, width
     let (rect, response) = ui.allocate_exact_size(vec2(width, HEIGHT), Sense::click());
     let (done, runs) = (context.course.is_finished(id), context.view.lesson == Some(id));
     let title = lesson.title.get();
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, format!("Begin: {title}")));
+    response.widget_info(|| {
+        WidgetInfo::labeled(egui::Role::Button, true, fill("Begin: {title}", &[("title", &title)]))
+    });
     let lit = response.hovered() || response.has_focus();
     let edge = if runs || lit { tokens.accent } else { tokens.outline };
-    let fill = if lit { tokens.field } else { tokens.card };
+    let ground = if lit { tokens.field } else { tokens.card };
     let stroke = egui::Stroke::new(1.0, edge);
-    ui.painter().rect(rect, theme::radius::CARD, fill, stroke, egui::StrokeKind::Inside);
+    ui.painter().rect(rect, theme::radius::CARD, ground, stroke, egui::StrokeKind::Inside);
     let inner = rect.shrink(MARGIN);
     let foot = Rect::from_min_max(pos2(inner.left(), inner.bottom() - 21.0), inner.max);
     let down = Layout::top_down(Align::Min);
@@ -80,13 +87,16 @@ fn card(context: &Context<'_>, ui: &mut Ui, id: LessonId, lesson: &Lesson, width
     let summary = text::job(&head, lesson.summary.get(), tokens.text);
     head.add(egui::Label::new(summary).wrap().selectable(false));
     let mut foot = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
-    let length = format!("{} steps  ·  {} min", lesson.steps.len(), lesson.minutes);
+    let length = fill(
+        "{steps} steps  ·  {minutes} min",
+        &[("steps", &lesson.steps.len()), ("minutes", &lesson.minutes)],
+    );
     foot.label(RichText::new(length).small().color(tokens.text_weak));
     foot.with_layout(Layout::right_to_left(Align::Center), |ui| {
         if runs {
-            badge(ui, BadgeKind::Neutral, "running");
+            badge(ui, BadgeKind::Neutral, tr("running"));
         } else if done {
-            badge(ui, BadgeKind::Converged, "done");
+            badge(ui, BadgeKind::Converged, tr("done"));
         }
     });
     response.on_hover_cursor(egui::CursorIcon::PointingHand)

@@ -6,6 +6,7 @@ use egui::text::CCursorRange;
 use egui::{Align2, Frame, Id, Key, Margin, Rect, Stroke, TextEdit, Ui, WidgetInfo};
 
 use super::super::number;
+use crate::app::text::fill;
 use crate::app::theme;
 
 /// What is being typed, and the last complaint; kept between frames.
@@ -40,10 +41,14 @@ pub(super) fn check(subject: &Subject<'_>, text: &str, range: &RangeInclusive<f6
     let Subject { name, symbol, .. } = subject;
     let space = if symbol.is_empty() { "" } else { " " };
     match number::parse(text) {
-        None => Err(format!("{name}{space}{symbol}: “{}” is not a number. Allowed: {allowed}.", text.trim())),
-        Some(value) if !range.contains(&value) => {
-            Err(format!("{name}{space}{symbol} = {} is out of range. Allowed: {allowed}.", text.trim()))
-        }
+        None => Err(fill(
+            "{name}: “{text}” is not a number. Allowed: {allowed}.",
+            &[("name", &format!("{name}{space}{symbol}")), ("text", &text.trim()), ("allowed", &allowed)],
+        )),
+        Some(value) if !range.contains(&value) => Err(fill(
+            "{name} = {text} is out of range. Allowed: {allowed}.",
+            &[("name", &format!("{name}{space}{symbol}")), ("text", &text.trim()), ("allowed", &allowed)],
+        )),
         Some(value) => Ok(value),
     }
 }
@@ -51,7 +56,7 @@ pub(super) fn check(subject: &Subject<'_>, text: &str, range: &RangeInclusive<f6
 /// `1.00e−4 to 0.100 Hz`.
 pub(super) fn range_text(range: &RangeInclusive<f64>, unit: &str) -> String {
     let short = |value: f64| number::typographic(&number::exact(value));
-    let text = format!("{} to {}", short(*range.start()), short(*range.end()));
+    let text = fill("{from} to {to}", &[("from", &short(*range.start())), ("to", &short(*range.end()))]);
     if unit.is_empty() { text } else { format!("{text} {unit}") }
 }
 
@@ -74,13 +79,13 @@ pub(super) fn show(
     let colour = if memory.error.is_some() && editing { tokens.danger } else { tokens.text_strong };
     // The frame is drawn here, so that the field keeps its size in every state.
     let hovered = ui.rect_contains_pointer(rect);
-    let fill = if hovered || editing { tokens.hover } else { tokens.field };
+    let ground = if hovered || editing { tokens.hover } else { tokens.field };
     let outline = match (&memory.error, editing) {
         (Some(_), _) => Stroke::new(1.5, tokens.danger),
         (None, true) => Stroke::new(1.5, tokens.accent),
         (None, false) => tokens.edge(),
     };
-    ui.painter().rect(rect, theme::radius::CONTROL, fill, outline, egui::StrokeKind::Inside);
+    ui.painter().rect(rect, theme::radius::CONTROL, ground, outline, egui::StrokeKind::Inside);
     let edit = TextEdit::singleline(&mut text)
         .id(id)
         .font(egui::TextStyle::Monospace)
@@ -96,10 +101,16 @@ pub(super) fn show(
     let response = &output.response.response;
     let enabled = ui.is_enabled();
     response.widget_info(|| {
-        WidgetInfo::text_edit(enabled, text.clone(), text.clone(), format!("{} value", subject.name))
+        WidgetInfo::text_edit(
+            enabled,
+            text.clone(),
+            text.clone(),
+            fill("{name} value", &[("name", &subject.name)]),
+        )
     });
 
-    ui.ctx().accesskit_node_builder(id, |node| node.set_label(format!("{} value", subject.name)));
+    ui.ctx()
+        .accesskit_node_builder(id, |node| node.set_label(fill("{name} value", &[("name", &subject.name)])));
 
     if response.gained_focus() {
         let full = number::exact(value);

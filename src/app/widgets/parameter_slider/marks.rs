@@ -6,6 +6,7 @@ use egui::{Galley, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec
 
 use super::super::number;
 use super::mapping::Mapping;
+use crate::app::text::fill;
 use crate::app::{fonts, theme};
 
 /// A value worth snapping to. Earlier marks of a list win when labels compete for room.
@@ -94,7 +95,11 @@ pub(super) fn show(
         let response = ui.interact(target, id.with(("mark", place.index)), Sense::CLICK);
         let enabled = ui.is_enabled();
         response.widget_info(|| {
-            WidgetInfo::labeled(egui::Role::Button, enabled, format!("{name} at {}", mark.label))
+            WidgetInfo::labeled(
+                egui::Role::Button,
+                enabled,
+                fill("{name} at {mark}", &[("name", &name), ("mark", &mark.label)]),
+            )
         });
         let colour = if response.hovered() { tokens.text_strong } else { tokens.warning };
         let foot = place.label.map_or(track.bottom() + TICK - 1.0, |label| label.top() + 1.0);

@@ -13,9 +13,11 @@ use egui::{Align2, Rect, Response, Sense, Ui, pos2, vec2};
 
 use self::mapping::Mapping;
 use super::icon::{self, Icon};
+use crate::app::text::{fill, tr};
 use crate::app::{fonts, theme};
 
 pub use marks::Mark;
+pub use track::is_track;
 
 /// Height of the row with the name, of the track's grab area, and widths of the value field, points.
 const NAME_ROW: f32 = 26.0;
@@ -210,7 +212,10 @@ impl<'a> ParameterSlider<'a> {
         }
         let default = self.default.filter(|default| *default != *self.value)?;
         let button = ui.interact(rows.reset, id.with("reset"), Sense::CLICK);
-        let hint = format!("Reset {} to {}", self.name, super::number::display(default));
+        let hint = fill(
+            "Reset {name} to {value}",
+            &[("name", &self.name), ("value", &super::number::display(default))],
+        );
         icon::paint_button(ui, rows.reset, &button, Icon::Reset, &hint);
         let pressed = button.clicked();
         button.on_hover_text(hint);
@@ -230,9 +235,9 @@ impl<'a> ParameterSlider<'a> {
             facts.push(self.equation.to_owned());
         }
         facts.push(if self.unit.is_empty() {
-            "dimensionless".to_owned()
+            tr("dimensionless").to_owned()
         } else {
-            format!("in {}", self.unit)
+            fill("in {unit}", &[("unit", &self.unit)])
         });
         facts.push(field::range_text(&self.range, ""));
         ui.label(egui::RichText::new(facts.join("  ·  ")).small().color(tokens.text_weak));

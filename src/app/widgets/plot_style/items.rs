@@ -96,6 +96,17 @@ pub fn rule(plot: &mut PlotUi<'_>, upright: bool, name: &str, at: f64, colour: e
 
 /// Points where the data are: large when few, small when many.
 pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [PlotPoint]) {
+    faded_points(plot, kind, name, places, 1.0);
+}
+
+/// The same with less of their colour, such as older ones.
+pub fn faded_points<'a>(
+    plot: &mut PlotUi<'a>,
+    kind: Series,
+    name: &str,
+    places: &'a [PlotPoint],
+    strength: f32,
+) {
     let colour = kind.colour(theme::tokens_in(plot.ctx()));
     let (radius, opacity) = match (kind, places.len()) {
         (Series::Ghost, 0..=40) => (3.5, 0.8),
@@ -109,6 +120,7 @@ pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [
         _ => (1.5, 0.75),
     };
     let opacity = if theme::tokens_in(plot.ctx()).contrast { 1.0 } else { opacity };
+    let opacity = opacity * strength;
     let (pen, shape) = match kind.mark() {
         Pen::Rings(_) => (Pen::Rings(radius), MarkerShape::Circle),
         Pen::Crosses(_) => (Pen::Crosses(radius), MarkerShape::Cross),

@@ -7,7 +7,7 @@
 //! 2. What does not settle that way is followed further for its Lyapunov exponents. Negative: a periodic motion is
 //!    being approached; it is looked for once more, also with long periods and from farther away. Zero: quasiperiodic,
 //!    when the stroboscopic points lie on closed curves (or fill a surface and the second exponent is zero as well).
-//!    Positive: chaotic, unless the run is still near an unstable periodic motion. The record is doubled while it does
+//!    Positive: chaotic, unless the run is still near an unstable periodic motion or leaves one. The record is doubled while it does
 //!    not decide.
 //!
 //! A chaotic transient that outlives the record counts as chaotic, and a periodic motion of more than 64 excitation
@@ -178,7 +178,8 @@ impl Search {
             return Some(self.reached(Motion::Undecided { why: Undecided::Unresolved }, None));
         }
         let exponent = Exponent::from_growth(record.tangents.growth(), self.system.parameters.period())?;
-        let recurrence = self.strobe.recurrence(&self.system);
+        self.recurrence = self.strobe.recurrence(&self.system);
+        let recurrence = self.recurrence;
         let recurring = recurrence.and_then(|found| found.period);
         // The record may still hold how an unstable motion was left.
         if let Some(found) = recurring.and_then(|periods| self.confirm(periods, Some(&exponent))) {
@@ -208,7 +209,7 @@ impl Search {
                 }
                 Undecided::PointsScattered
             }
-            Sign::Positive if recurring.is_some() => Undecided::NearUnstable,
+            Sign::Positive if recurring.is_some() || self.leaves_slowly(&exponent) => Undecided::NearUnstable,
             Sign::Positive => {
                 let enough = if self.horizon.ends_early { CERTAIN } else { KNOWN };
                 if exponent.half_width <= enough * exponent.value || record.doublings == 0 {
@@ -254,6 +255,13 @@ impl Search {
             }
             periods = doubled;
         }
+    }
+
+    /// Whether `exponent` is the rate at which the unstable periodic motion near the last state is left: just beyond a
+    /// boundary that takes longer than the record, and looks like chaos meanwhile.
+    fn leaves_slowly(&self, exponent: &Exponent) -> bool {
+        let orbit = Orbit::find(&self.system, Some(self.strobe.before_last(0)), 1);
+        orbit.is_ok_and(|orbit| !orbit.stable() && exponent.fits(&orbit, self.system.parameters.period()))
     }
 
     fn periodic(&self, (orbit, distance): (Orbit, f64)) -> Reached {
