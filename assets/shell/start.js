@@ -5,10 +5,17 @@ const KEY = "harvester-lab.v1";
 const STOPPED = "Harvester Lab stopped";
 const root = document.documentElement;
 const element = (id) => document.getElementById(id);
+// Inside of another page: nothing of it is stored, and the wheel, fingers and keys are the outer page's first.
+const embedded = new URLSearchParams(location.search).has("embed");
+if (embedded) {
+  root.dataset.embedded = "";
+  // The app takes the keyboard when it starts; from slides it must not.
+  HTMLInputElement.prototype.focus = () => {};
+}
 
 function stored() {
   try {
-    return localStorage.getItem(KEY);
+    return embedded ? null : localStorage.getItem(KEY);
   } catch {
     return null;
   }
@@ -99,6 +106,7 @@ window.harvesterShell = Object.freeze({
   ready: () => {
     if (root.dataset.phase !== "loading") return;
     root.dataset.phase = "ready";
+    delete HTMLInputElement.prototype.focus;
     // The field into which the app has texts typed; it comes and goes by the canvas, not by Tab.
     const typed = element("canvas").nextElementSibling;
     typed.tabIndex = -1;
@@ -114,6 +122,8 @@ window.harvesterShell = Object.freeze({
     });
     dispatchEvent(new CustomEvent("harvester:change", { detail }));
   },
+  // What is around the canvas looks as what is in it.
+  look: (dark, contrast) => (root.dataset.look = `${dark ? "dark" : "light"}${contrast ? " contrast" : ""}`),
   fail,
   // A worker that runs the page's own module, compiled only once.
   worker: (wasm) => {

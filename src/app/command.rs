@@ -47,6 +47,10 @@ pub(super) enum Command {
     Pin(bool),
     /// Dark or light theme.
     SetDark(bool),
+    /// High contrast or not.
+    SetContrast(bool),
+    /// Light, dark and contrast as the system has them.
+    FollowSystem,
     /// Large type or normal.
     SetProjector(bool),
     /// Let the beam move, or hold it.

@@ -12,7 +12,7 @@ const FILE_NAME: &str = "harvester-scenario.json";
 /// A file larger than this is no scenario.
 const LARGEST_FILE: usize = 1 << 20;
 /// What belongs to the room and the eyes, and not into a file.
-const LOOKS: [&str; 3] = ["dark", "projector", "beam_moves"];
+const LOOKS: [&str; 4] = ["dark", "contrast", "projector", "beam_moves"];
 
 /// What only the browser can do.
 #[derive(Debug, Clone, PartialEq)]

@@ -193,6 +193,8 @@ pub struct View {
     pub tab: Tab,
     /// Dark or light; the system's choice when absent.
     pub dark: Option<bool>,
+    /// High contrast or not; the system's choice when absent.
+    pub contrast: Option<bool>,
     /// Large type for the lecture room.
     pub projector: bool,
     /// Window of the stability map.
@@ -226,6 +228,7 @@ impl Default for View {
             scenario: figures::figure(9).and_then(Figure::scenario).unwrap_or_default(),
             tab: Tab::Explore,
             dark: None,
+            contrast: None,
             projector: false,
             map: MapWindow::First,
             figure: 9,
@@ -306,7 +309,8 @@ impl View {
 
     /// The same, looking like `other`: what suits the room and the eyes, and belongs to no scenario.
     pub(super) fn with_looks_of(self, other: &Self) -> Self {
-        Self { dark: other.dark, projector: other.projector, beam_moves: other.beam_moves, ..self }
+        let Self { dark, contrast, projector, beam_moves, .. } = *other;
+        Self { dark, contrast, projector, beam_moves, ..self }
     }
 
     /// What an earlier session stored, and a sentence about it when it cannot be used.

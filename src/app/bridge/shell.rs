@@ -10,6 +10,10 @@ extern "C" {
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn ready();
 
+    /// Gives what stands around the canvas the colours of the theme.
+    #[wasm_bindgen(js_namespace = harvesterShell)]
+    pub(super) fn look(dark: bool, contrast: bool);
+
     /// Replaces the page by a screen that says what happened and offers the stored state.
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn fail(title: &str, detail: &str);

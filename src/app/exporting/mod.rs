@@ -106,7 +106,7 @@ impl App {
             size = page.content_rect().size();
             (time, frames) = (page.input(|input| input.time), 1);
         }
-        theme::apply(&hidden, false);
+        theme::apply(&hidden, &theme::LIGHT);
         let crew = self.crew.borrow();
         for frame in 0..frames {
             let input = RawInput {
@@ -125,6 +125,7 @@ impl App {
                     course: &self.course,
                     live: &self.live,
                     address: &self.address,
+                    embed: self.embed.as_ref(),
                     steps: (false, false),
                     commands: &mut commands,
                 };

@@ -119,6 +119,7 @@ pub(super) fn fields() -> Vec<Field> {
     add("/lesson", Kind::Word);
     add("/step", Kind::Whole(1, STEPS));
     add("/dark", Kind::Flag);
+    add("/contrast", Kind::Flag);
     add("/projector", Kind::Flag);
     add("/beam_moves", Kind::Flag);
     fields

@@ -120,6 +120,14 @@ fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension) -> bool {
     changed
 }
 
+/// The slider for one dimension where there is nothing else of the device.
+pub(super) fn alone(context: &mut Context<'_>, ui: &mut Ui, dimension: Dimension) {
+    let Some(mut device) = device_of(context, ui) else { return };
+    if slider(ui, &mut device, dimension) {
+        adopt(context, device, context.view.scenario.scaling);
+    }
+}
+
 /// Without the last digits, which are what is left of the factor.
 fn round(value: f64) -> f64 {
     crate::app::widgets::number::round_significant(value, 12)

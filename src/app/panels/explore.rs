@@ -66,6 +66,7 @@ pub(super) fn place(ui: &mut Ui, width: f32, height: f32, draw: &mut dyn FnMut(&
     });
 }
 
+/// One of the plots that stand in such grids.
 pub(super) fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
     match panel {
         Panel::StabilityMap => stability_map::show(context, ui),

@@ -7,6 +7,7 @@ pub(super) mod controls;
 pub(super) mod curves;
 pub(super) mod design;
 pub(super) mod device;
+pub(super) mod embedded;
 pub(super) mod evidence;
 pub(super) mod explore;
 pub(super) mod figure_boundaries;
@@ -35,6 +36,7 @@ pub(super) mod verdict;
 use super::bench::Bench;
 use super::command::{Command, Commands};
 use super::crew::Studies;
+use super::embed::Embed;
 use super::lessons::Course;
 use super::live::Live;
 use super::session::{Session, Shown, Status};
@@ -53,6 +55,8 @@ pub(super) struct Context<'a> {
     pub live: &'a Live,
     /// The page's own address, without a fragment.
     pub address: &'a str,
+    /// What the address asks to be shown of the page; all of it when absent.
+    pub embed: Option<&'a Embed>,
     /// Whether there is a step to take back, and one to take again.
     pub steps: (bool, bool),
     pub commands: &'a mut Commands,

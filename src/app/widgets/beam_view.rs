@@ -106,7 +106,10 @@ impl<'a> BeamView<'a> {
             finite.map(|p| view.at(p[0], p[1] + base)).collect()
         };
         for extreme in self.extremes {
-            painter.add(Shape::line(curve(extreme), Stroke::new(1.5, tokens.numeric.gamma_multiply(0.3))));
+            painter.add(Shape::line(
+                curve(extreme),
+                Stroke::new(1.5, tokens.numeric.gamma_multiply(if tokens.contrast { 0.8 } else { 0.3 })),
+            ));
         }
         let beam = curve(self.shape);
         let tip = beam.last().copied().unwrap_or(rest[1]);

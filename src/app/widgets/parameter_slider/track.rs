@@ -8,6 +8,7 @@ use egui::{
 use super::mapping::Mapping;
 use super::marks::{self, Mark};
 use crate::app::theme;
+use crate::app::widgets::touch;
 
 /// Height of the drawn track and radius of the thumb, points.
 const TRACK: f32 = 5.0;
@@ -40,6 +41,7 @@ pub(super) fn interact(
     snaps: &[Mark],
 ) -> Outcome {
     let rail = rail(area);
+    touch::grip(ui, area);
     let response =
         ui.interact(area, id, Sense::drag()).on_hover_and_drag_cursor(egui::CursorIcon::PointingHand);
     let thumb_x = rail.left() + rail.width() * mapping.fraction(value) as f32;
