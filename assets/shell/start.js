@@ -5,6 +5,13 @@ const KEY = "harvester-lab.v1";
 const STOPPED = "Harvester Lab stopped";
 const root = document.documentElement;
 const element = (id) => document.getElementById(id);
+// Inside of another page: nothing of it is stored, and the wheel, fingers and keys are the outer page's first.
+const embedded = new URLSearchParams(location.search).has("embed");
+if (embedded) {
+  root.dataset.embedded = "";
+  // The app takes the keyboard when it starts; from slides it must not.
+  HTMLInputElement.prototype.focus = () => {};
+}
 
 // What may have to be said before the app is there to translate it, or instead of it.
 const EARLY = {
@@ -73,7 +80,7 @@ function firstLanguage() {
 
 function stored() {
   try {
-    return localStorage.getItem(KEY);
+    return embedded ? null : localStorage.getItem(KEY);
   } catch {
     return null;
   }
@@ -164,6 +171,7 @@ window.harvesterShell = Object.freeze({
   ready: () => {
     if (root.dataset.phase !== "loading") return;
     root.dataset.phase = "ready";
+    delete HTMLInputElement.prototype.focus;
     // The field into which the app has texts typed; it comes and goes by the canvas, not by Tab.
     const typed = element("canvas").nextElementSibling;
     typed.tabIndex = -1;
@@ -179,6 +187,8 @@ window.harvesterShell = Object.freeze({
     });
     dispatchEvent(new CustomEvent("harvester:change", { detail }));
   },
+  // What is around the canvas looks as what is in it.
+  look: (dark, contrast) => (root.dataset.look = `${dark ? "dark" : "light"}${contrast ? " contrast" : ""}`),
   fail,
   speak: (code, catalogue) => speak(code, JSON.parse(catalogue)),
   // The bytes of a file whose name carries a hash.

@@ -157,16 +157,21 @@ impl Scenario {
     pub fn set_modes(&mut self, modes: usize) {
         let modes = modes.clamp(1, MAX_MODES);
         if let Some(initial) = &mut self.initial {
-            let before = self.model.modes;
-            let mut state = vec![0.0; state_dimension(modes)];
-            let common = modes.min(before);
-            state[..common].copy_from_slice(&initial[..common]);
-            state[modes..modes + common].copy_from_slice(&initial[before..before + common]);
-            state[2 * modes] = initial[2 * before];
-            *initial = state;
+            *initial = fit_state(initial, modes);
         }
         self.model.modes = modes;
     }
+}
+
+/// A state of another number of modes (length 2M + 1) for `modes` of them (length 2N + 1): what both have is kept.
+pub fn fit_state(state: &[f64], modes: usize) -> Vec<f64> {
+    let before = state.len() / 2;
+    let mut fitted = vec![0.0; state_dimension(modes)];
+    let common = modes.min(before);
+    fitted[..common].copy_from_slice(&state[..common]);
+    fitted[modes..modes + common].copy_from_slice(&state[before..before + common]);
+    fitted[2 * modes] = state[2 * before];
+    fitted
 }
 
 #[cfg(test)]

@@ -2,7 +2,9 @@
 
 use super::bench::measured::Reading;
 use super::lessons::course::Action;
+use super::live::LiveAction;
 use super::view::design::DesignView;
+use super::view::live::LiveView;
 use super::view::{Layer, MapWindow, Panel, SweepView, Tab};
 use crate::app::text::Language;
 use crate::export::Format;
@@ -26,6 +28,10 @@ pub(super) enum Command {
     OpenPlane([Parameter; 2]),
     /// Show something else of the Design tab.
     Design(Box<DesignView>),
+    /// Show something else of the Live tab.
+    LookLive(LiveView),
+    /// Do something with the live run.
+    Live(LiveAction),
     /// Take a changed device over, or say why it is none.
     Adopt(Result<Box<Scenario>, String>),
     /// Go on in the lessons.
@@ -44,6 +50,10 @@ pub(super) enum Command {
     SetDark(bool),
     /// Another language.
     Speak(Language),
+    /// High contrast or not.
+    SetContrast(bool),
+    /// Light, dark and contrast as the system has them.
+    FollowSystem,
     /// Large type or normal.
     SetProjector(bool),
     /// Let the beam move, or hold it.

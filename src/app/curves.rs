@@ -4,6 +4,7 @@ use egui_plot::PlotPoint;
 
 use crate::dynamics::Outcome;
 use crate::jobs::Run;
+use crate::model::ReducedSystem;
 use crate::theory::SteadyState;
 
 /// Samples of an excitation period in the phase portrait.
@@ -23,7 +24,7 @@ const CLOSE_DOTS: usize = 14;
 /// Samples of a run that ended early.
 const EARLY_SAMPLES: usize = 3000;
 /// Tip displacement, in beam lengths, up to which an escape is drawn.
-const SIGHT: f64 = 0.5;
+pub(super) const SIGHT: f64 = 0.5;
 /// Points along the beam.
 pub(super) const BEAM_POINTS: usize = 33;
 
@@ -69,7 +70,7 @@ impl Curves {
         let from = if early { 0.0 } else { (end - shown).max(0.0) };
         let count =
             if early { EARLY_SAMPLES } else { ((end - from) / period * SAMPLES_PER_PERIOD as f64) as usize };
-        let mut curves = Self { shapes: shapes(run), end, ..Self::default() };
+        let mut curves = Self { shapes: shapes(system), end, ..Self::default() };
         let voltage = system.dimension() - 1;
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         run.trajectory.sample(from, end, count.max(2), |_, state| {
@@ -169,9 +170,9 @@ fn last_time_in_sight(run: &Run) -> f64 {
 }
 
 /// Mode shapes along the beam, one row a mode.
-fn shapes(run: &Run) -> Vec<Vec<f64>> {
+pub(super) fn shapes(system: &ReducedSystem) -> Vec<Vec<f64>> {
     let along = |i: usize| i as f64 / (BEAM_POINTS - 1) as f64;
-    run.system.modes.iter().map(|mode| (0..BEAM_POINTS).map(|i| mode.shape(along(i))).collect()).collect()
+    system.modes.iter().map(|mode| (0..BEAM_POINTS).map(|i| mode.shape(along(i))).collect()).collect()
 }
 
 /// The deflection of the beam in a state, as points (x, z) from clamp to tip, in beam lengths.

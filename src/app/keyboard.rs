@@ -4,13 +4,25 @@ use egui::style::ScrollAnimation;
 use egui::{Context, Id, Key, Modifiers, Popup, Ui};
 
 use super::command::{Command, Commands};
-use super::panels::{explore, shortcuts, stability, sweep};
+use super::live::LiveAction;
+use super::panels::{explore, live, shortcuts, stability, sweep};
 use super::view::design::Page;
 use super::view::{Panel, Tab, View};
+use super::widgets::parameter_slider;
 
 /// Keys that open the tabs, in their order.
 const TABS: [Key; 9] =
     [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+/// Keys of the live run; Space, which also presses what has the focus, comes beside them.
+const LIVE: [(Key, LiveAction); 7] = [
+    (Key::Period, LiveAction::StepPeriod),
+    (Key::Comma, LiveAction::StepFrame),
+    (Key::K, LiveAction::Kick(1.0)),
+    (Key::J, LiveAction::Kick(-1.0)),
+    (Key::R, LiveAction::FromRest),
+    (Key::C, LiveAction::Clear),
+    (Key::S, LiveAction::Sound),
+];
 /// Room kept around what has the focus, points.
 const AROUND: f32 = 12.0;
 
@@ -20,6 +32,8 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
         return;
     }
     let mut help = false;
+    let free =
+        context.memory(|memory| memory.focused()).is_none_or(|id| parameter_slider::is_track(context, id));
     context.input_mut(|input| {
         // The one with more modifiers first: the other would take it, too.
         let steps = [
@@ -55,6 +69,13 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
                 commands.push(command);
             }
         }
+        if view.tab == Tab::Live {
+            let live = LIVE.iter().filter(|(key, _)| pressed(*key));
+            commands.extend(live.map(|(_, action)| Command::Live(*action)));
+            if free && pressed(Key::Space) {
+                commands.push(Command::Live(LiveAction::Toggle));
+            }
+        }
         if view.enlarged.is_some() && pressed(Key::Escape) {
             commands.push(Command::Enlarge(None));
         }
@@ -69,6 +90,7 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
 fn next_plot(view: &View) -> Option<Panel> {
     let plots: &[Panel] = match (view.tab, view.design.page) {
         (Tab::Explore, _) => &explore::PANELS,
+        (Tab::Live, _) => &live::PANELS,
         (Tab::Stability, _) => &stability::PANELS,
         (Tab::Sweep, _) => &sweep::PANELS,
         (Tab::Design, Page::Harvest) => &[Panel::Harvest],

@@ -8,6 +8,7 @@ pub mod bridge;
 pub mod fonts;
 pub mod lessons;
 pub mod link;
+mod live;
 pub mod text;
 pub mod theme;
 pub mod view;
@@ -21,6 +22,7 @@ mod command;
 mod comparison;
 pub mod crew;
 mod curves;
+pub mod embed;
 mod exporting;
 mod figures;
 mod history;
@@ -44,7 +46,9 @@ use egui::{Margin, Ui};
 use bench::Bench;
 use command::{Command, Commands};
 use crew::Crew;
+use embed::Embed;
 use lessons::Course;
+use live::Live;
 use panels::Context;
 use session::{Session, Status};
 use sharing::Errand;
@@ -65,8 +69,11 @@ pub struct App {
     crew: Rc<RefCell<Crew>>,
     bench: Bench,
     course: Course,
+    live: Live,
     notice: Option<String>,
     history: history::History<steps::Moment>,
+    /// What the address asks to be shown of the page; all of it when absent.
+    embed: Option<Embed>,
     /// The page's own address, without a fragment; empty outside a browser.
     address: String,
     /// What the browser is to do.
@@ -74,8 +81,10 @@ pub struct App {
     /// Cards to be saved at the end of this frame.
     exports: Vec<(String, Format)>,
     /// What egui was last told about theme and type size.
-    styled: Option<(bool, bool)>,
     speech: speaking::Speech,
+    styled: Option<(bool, bool, bool)>,
+    /// Whether the system asks for high contrast.
+    system_contrast: bool,
 }
 
 impl App {
@@ -86,7 +95,7 @@ impl App {
         let mut session = Session::default();
         session.ask(&view.scenario);
         let (bench, course) = (Bench::default(), Course::restore(stored));
-        let history = history::History::default();
+        let (history, live) = (history::History::default(), Live::default());
         let (address, errands, exports) = (String::new(), Vec::new(), Vec::new());
         let mut app = Self {
             view,
@@ -94,13 +103,16 @@ impl App {
             crew,
             bench,
             course,
+            live,
             notice,
             history,
+            embed: None,
             address,
             errands,
             exports,
             styled: None,
             speech: speaking::Speech::default(),
+            system_contrast: false,
         };
         app.style(context);
         app
@@ -108,7 +120,10 @@ impl App {
 
     /// Work that goes on while the page is hidden.
     pub fn logic(&mut self, context: &egui::Context) {
-        self.session.work();
+        // Where time goes on, the frame is its own while the hand moves.
+        if self.view.tab != Tab::Live || !context.input(|input| input.pointer.any_down()) {
+            self.session.work();
+        }
         self.study(context);
         self.check_goal(context);
         if self.bench.measured.work() {
@@ -128,7 +143,7 @@ impl App {
     /// Asks the crew for what the page shows beside the run, and lets it go on.
     fn study(&mut self, context: &egui::Context) {
         let mut crew = self.crew.borrow_mut();
-        crew.studies.follow(&self.view, &self.session);
+        crew.studies.follow(&self.view, &self.session, self.embed.as_ref());
         crew.tick(context.input(|input| input.pointer.any_down()));
         if crew.works_on_this_thread() && crew.is_busy() {
             context.request_repaint();
@@ -148,19 +163,49 @@ impl App {
     /// Gives the crew what the view asks for now, without waiting for the next frame.
     fn follow(&mut self) {
         let mut crew = self.crew.borrow_mut();
-        crew.studies.follow(&self.view, &self.session);
+        crew.studies.follow(&self.view, &self.session, self.embed.as_ref());
         crew.hand_out();
+    }
+
+    /// Shows only what the part of an address from `?` on asks for, if it does.
+    pub fn embed(&mut self, search: &str) {
+        self.embed = Embed::read(search);
+    }
+
+    /// Whether it does.
+    pub fn is_embedded(&self) -> bool {
+        self.embed.is_some()
+    }
+
+    /// Whether the page keeps an event for itself. Otherwise the browser scrolls what is around the page.
+    pub fn keeps(&self, context: &egui::Context, event: &egui::Event) -> bool {
+        self.embed
+            .as_ref()
+            .is_none_or(|embed| embed.keeps(event, &|place| widgets::touch::is_grip(context, place)))
+    }
+
+    /// Leaves those events out that belong to the browser.
+    pub fn sift(&self, context: &egui::Context, events: &mut Vec<egui::Event>) {
+        events.retain(|event| !matches!(event, egui::Event::MouseWheel { .. }) || self.keeps(context, event));
+        widgets::touch::end_cancelled(events, context.input(|input| input.pointer.latest_pos()));
     }
 
     /// Draws one frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
         self.find_words();
+        widgets::touch::begin_frame(ui.ctx());
         let mut commands = Commands::new();
         let hand = steps::hand(ui.ctx());
         self.history.begin_frame(hand);
+        self.go_on(ui.ctx());
         let (pinned, dark) = (self.session.pinned.is_some(), theme::tokens(ui).dark);
         keyboard::shortcuts(ui.ctx(), &self.view, pinned, dark, &mut commands);
+        if self.embed.is_some() {
+            // What the whole page would show or save is not there.
+            commands
+                .retain(|command| matches!(command, Command::Undo | Command::Redo | Command::Enlarge(None)));
+        }
         let crew = self.crew.borrow();
         let mut context = Context {
             view: &self.view,
@@ -168,7 +213,9 @@ impl App {
             studies: &crew.studies,
             bench: &self.bench,
             course: &self.course,
+            live: &self.live,
             address: &self.address,
+            embed: self.embed.as_ref(),
             steps: self.history.can(),
             commands: &mut commands,
         };
@@ -188,6 +235,14 @@ impl App {
         ui.ctx().request_repaint();
     }
 
+    /// Lets the live run go on and be heard.
+    fn go_on(&mut self, context: &egui::Context) {
+        if self.live.frame(context.input(|input| input.time), &self.view) {
+            context.request_repaint();
+        }
+        self.errands.extend(self.live.chunk().map(Errand::Sound));
+    }
+
     fn carry_out(&mut self, command: Command) {
         match command {
             Command::Show(scenario) => self.show(*scenario),
@@ -200,6 +255,13 @@ impl App {
             Command::Sweep(sweep) => self.view.sweep = sweep,
             Command::OpenPlane(plane) => self.view.plane = plane,
             Command::Design(design) => self.view.design = *design,
+            Command::LookLive(live) => self.view.live = live,
+            Command::Live(action) => {
+                self.live.act(action, &self.view, &self.session);
+                if !self.live.sounds() {
+                    self.errands.push(Errand::Sound(Vec::new()));
+                }
+            }
             Command::Adopt(Ok(scenario)) => self.show(*scenario),
             Command::Adopt(Err(reason)) => self.bench.refusal = Some(reason),
             Command::Lesson(action) => self.follow_lesson(action),
@@ -219,6 +281,8 @@ impl App {
             }
             Command::SetDark(dark) => self.view.dark = Some(dark),
             Command::Speak(language) => self.view.language = Some(language),
+            Command::SetContrast(contrast) => self.view.contrast = Some(contrast),
+            Command::FollowSystem => (self.view.dark, self.view.contrast) = (None, None),
             Command::SetProjector(large) => self.view.projector = large,
             Command::MoveBeam(moves) => self.view.beam_moves = moves,
             Command::DismissNotice => self.notice = None,
@@ -267,15 +331,26 @@ impl App {
         }
     }
 
+    /// Says whether the system asks for high contrast.
+    pub fn set_system_contrast(&mut self, contrast: bool) {
+        self.system_contrast = contrast;
+    }
+
+    /// Whether the theme is dark, and whether it has high contrast.
+    pub fn look(&self, context: &egui::Context) -> (bool, bool) {
+        let system = context.system_theme().unwrap_or(egui::Theme::Dark) == egui::Theme::Dark;
+        (self.view.dark.unwrap_or(system), self.view.contrast.unwrap_or(self.system_contrast))
+    }
+
     /// Tells egui about theme and type size when they have changed.
     fn style(&mut self, context: &egui::Context) {
-        let system = context.system_theme().unwrap_or(egui::Theme::Dark) == egui::Theme::Dark;
-        let wanted = (self.view.dark.unwrap_or(system), self.view.projector);
+        let (dark, contrast) = self.look(context);
+        let wanted = (dark, contrast, self.view.projector);
         if self.styled == Some(wanted) {
             return;
         }
-        theme::apply(context, wanted.0);
-        context.set_zoom_factor(if wanted.1 { theme::PROJECTOR_ZOOM } else { 1.0 });
+        theme::apply(context, theme::Tokens::of(dark, contrast));
+        context.set_zoom_factor(if wanted.2 { theme::PROJECTOR_ZOOM } else { 1.0 });
         self.styled = Some(wanted);
     }
 
@@ -304,6 +379,9 @@ impl App {
 
 /// The whole page: bar, notice, column and tab.
 fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
+    if let Some(embed) = context.embed {
+        return panels::embedded::show(context, embed, notice, ui);
+    }
     let tokens = theme::tokens(ui);
     let bar = egui::Frame::new().fill(tokens.bar).inner_margin(Margin::symmetric(14, 7));
     egui::Panel::top("bar")
@@ -363,6 +441,7 @@ fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
 fn draw_tab(context: &mut Context<'_>, ui: &mut Ui) {
     match context.view.tab {
         Tab::Explore => panels::explore::show(context, ui),
+        Tab::Live => panels::live::show(context, ui),
         Tab::Stability => panels::stability::show(context, ui),
         Tab::Sweep => panels::sweep::show(context, ui),
         Tab::Design => panels::design::show(context, ui),

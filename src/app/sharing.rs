@@ -12,15 +12,17 @@ const FILE_NAME: &str = "harvester-scenario.json";
 /// A file larger than this is no scenario.
 const LARGEST_FILE: usize = 1 << 20;
 /// What belongs to the room and the eyes, and not into a file.
-const LOOKS: [&str; 4] = ["lang", "dark", "projector", "beam_moves"];
+const LOOKS: [&str; 5] = ["lang", "dark", "contrast", "projector", "beam_moves"];
 
 /// What only the browser can do.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Errand {
     /// Save a text as a file of this name and type.
     Save(String, &'static str, String),
     /// Make a picture of this drawing with so many times its pixels, and save it under this name.
     Picture(String, String, u8),
+    /// Let these samples between -1 and 1 be heard after those before them; none ends the sound.
+    Sound(Vec<f32>),
     /// Ask for a file, and pass it to [`App::open_file`].
     Open,
     /// Fetch what this language needs, and pass it to [`App::learn`].

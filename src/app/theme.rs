@@ -6,23 +6,23 @@
 mod palette;
 mod style;
 
-pub use palette::{DARK, LIGHT, Tokens};
+pub use palette::{BLACK, DARK, LIGHT, Tokens, WHITE};
 
-/// Puts the look on `context`: fonts' sizes, spacing and colours of one of the two themes.
-pub fn apply(context: &egui::Context, dark: bool) {
-    let theme = if dark { egui::Theme::Dark } else { egui::Theme::Light };
+/// Puts the look on `context`: fonts' sizes, spacing and colours.
+pub fn apply(context: &egui::Context, tokens: &Tokens) {
+    let theme = if tokens.dark { egui::Theme::Dark } else { egui::Theme::Light };
     context.set_theme(theme);
-    context.set_style_of(theme, style::style(Tokens::of(dark)));
+    context.set_style_of(theme, style::style(tokens));
 }
 
 /// The design tokens in force in `ui`.
 pub fn tokens(ui: &egui::Ui) -> &'static Tokens {
-    Tokens::of(ui.visuals().dark_mode)
+    Tokens::in_force(ui.visuals())
 }
 
 /// The design tokens in force in `context`.
 pub fn tokens_in(context: &egui::Context) -> &'static Tokens {
-    Tokens::of(context.global_style().visuals.dark_mode)
+    Tokens::in_force(&context.global_style().visuals)
 }
 
 /// Text sizes in points, at zoom 1. A projector view multiplies them through the zoom factor of the context.

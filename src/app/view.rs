@@ -1,11 +1,13 @@
 //! What the user chose: the scenario and how it is looked at. This is what the page remembers.
 
 pub mod design;
+pub mod live;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::design::DesignView;
+use self::live::LiveView;
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
 use crate::app::text::{Language, fill, marked};
@@ -23,6 +25,8 @@ pub enum Tab {
     /// The four linked plots.
     #[default]
     Explore,
+    /// A run in which time goes on.
+    Live,
     /// Charts, multipliers, basins.
     Stability,
     /// Orbit diagrams and response curves.
@@ -37,8 +41,9 @@ pub enum Tab {
 
 impl Tab {
     /// All of them in their order, with their names.
-    pub const NAMED: [(Self, &'static str); 6] = [
+    pub const NAMED: [(Self, &'static str); 7] = [
         (Self::Explore, marked("Explore")),
+        (Self::Live, marked("Live")),
         (Self::Stability, marked("Stability")),
         (Self::Sweep, marked("Sweep")),
         (Self::Design, marked("Design")),
@@ -134,6 +139,12 @@ pub enum Panel {
     DesignMap,
     /// Measured data.
     Measured,
+    /// Live trace over time.
+    Oscilloscope,
+    /// Live phase portrait.
+    LivePortrait,
+    /// Live beam.
+    LiveBeam,
 }
 
 /// What is swept, and how.
@@ -185,6 +196,8 @@ pub struct View {
     /// The language of the texts; the browser's choice when absent.
     #[serde(rename = "lang")]
     pub language: Option<Language>,
+    /// High contrast or not; the system's choice when absent.
+    pub contrast: Option<bool>,
     /// Large type for the lecture room.
     pub projector: bool,
     /// Window of the stability map.
@@ -203,6 +216,8 @@ pub struct View {
     pub plane: [Parameter; 2],
     /// The Design tab.
     pub design: DesignView,
+    /// The Live tab.
+    pub live: LiveView,
     /// The running lesson.
     pub lesson: Option<LessonId>,
     /// Its step, from 1; the last one when there are fewer.
@@ -217,6 +232,7 @@ impl Default for View {
             tab: Tab::Explore,
             dark: None,
             language: None,
+            contrast: None,
             projector: false,
             map: MapWindow::First,
             figure: 9,
@@ -226,6 +242,7 @@ impl Default for View {
             sweep: SweepView::default(),
             plane: [Parameter::Omega, Parameter::Beta],
             design: DesignView::default(),
+            live: LiveView::default(),
             lesson: None,
             step: 1,
         }
@@ -281,6 +298,7 @@ impl View {
         }
         dwell.validate().map_err(part("sweep"))?;
         self.design.check().map_err(part("design"))?;
+        self.live.check().map_err(part("live"))?;
         if !(1..=STEPS).contains(&self.step) {
             let (field, value) = ("step", self.step);
             return Err(part(field)(ModelError::Count { field, value, minimum: 1, maximum: STEPS }));
@@ -295,13 +313,8 @@ impl View {
 
     /// The same, looking like `other`: what suits the room and the eyes, and belongs to no scenario.
     pub(super) fn with_looks_of(self, other: &Self) -> Self {
-        Self {
-            dark: other.dark,
-            language: other.language,
-            projector: other.projector,
-            beam_moves: other.beam_moves,
-            ..self
-        }
+        let Self { dark, contrast, language, projector, beam_moves, .. } = *other;
+        Self { dark, contrast, language, projector, beam_moves, ..self }
     }
 
     /// What an earlier session stored, and a sentence about it when it cannot be used.

@@ -54,6 +54,12 @@ impl Axis {
         parts.join(" ").trim_start().to_owned()
     }
 
+    /// The same without the name, where there is a symbol: `v [V]`.
+    pub fn short_title(&self) -> String {
+        let unit = if self.has_unit() { format!(" [{}]", self.unit) } else { String::new() };
+        format!("{}{unit}", self.symbol())
+    }
+
     /// The symbol, or the name where there is none.
     pub fn symbol(&self) -> &str {
         if self.symbol.is_empty() { &self.name } else { &self.symbol }

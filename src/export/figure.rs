@@ -18,6 +18,12 @@ pub enum Pen {
     Points(f32),
     /// Rings of this radius where the data are, points.
     Rings(f32),
+    /// Crosses that fit into such rings.
+    Crosses(f32),
+    /// Diamonds.
+    Diamonds(f32),
+    /// Squares.
+    Squares(f32),
 }
 
 impl Pen {
@@ -29,6 +35,21 @@ impl Pen {
             Self::Dots(..) => "dotted line",
             Self::Points(_) => "points",
             Self::Rings(_) => "rings",
+            Self::Crosses(_) => "crosses",
+            Self::Diamonds(_) => "diamonds",
+            Self::Squares(_) => "squares",
+        }
+    }
+
+    /// The radius of marks; none of lines.
+    pub const fn mark(self) -> Option<f32> {
+        match self {
+            Self::Line(_) | Self::Dashes(..) | Self::Dots(..) => None,
+            Self::Points(radius)
+            | Self::Rings(radius)
+            | Self::Crosses(radius)
+            | Self::Diamonds(radius)
+            | Self::Squares(radius) => Some(radius),
         }
     }
 }

@@ -233,27 +233,15 @@ fn band(out: &mut String, frame: &Frame, fill: Rgba, edge: Rgba, points: &[[f64;
 
 fn curve(out: &mut String, frame: &Frame, colour: Rgba, pen: Pen, points: &[[f64; 2]]) {
     let mut path = String::new();
-    if let Pen::Points(radius) | Pen::Rings(radius) = pen {
-        let radius = f64::from(radius);
+    if let Some(radius) = pen.mark() {
         for place in points.iter().filter(|place| place.iter().all(|value| value.is_finite())) {
             path.push('M');
             path.push_str(&frame.place(*place));
-            if let Pen::Rings(_) = pen {
-                let (r, d) = (short(radius), short(2.0 * radius));
-                let _ = write!(path, "m-{r} 0a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0-{d} 0");
-            } else {
-                path.push_str("h0");
-            }
+            path.push_str(&mark(pen, f64::from(radius)));
         }
-        if path.is_empty() {
-            return;
+        if !path.is_empty() {
+            let _ = writeln!(out, "<path d=\"{path}\"{}/>", marked(colour, pen, f64::from(radius)));
         }
-        // Round ends make a disc of a line without length, at a tenth of a circle's text.
-        let stroke = match pen {
-            Pen::Rings(_) => stroke(colour, 1.2),
-            _ => stroke(colour, 2.0 * radius) + " stroke-linecap=\"round\"",
-        };
-        let _ = writeln!(out, "<path d=\"{path}\" fill=\"none\"{stroke}/>");
         return;
     }
     for run in finite_runs(points) {
@@ -274,6 +262,30 @@ fn curve(out: &mut String, frame: &Frame, colour: Rgba, pen: Pen, points: &[[f64
     }
 }
 
+/// The path of a mark from its place on.
+fn mark(pen: Pen, radius: f64) -> String {
+    let (r, d) = (short(radius), short(2.0 * radius));
+    match pen {
+        Pen::Rings(_) => format!("m-{r} 0a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0-{d} 0"),
+        Pen::Crosses(_) => format!("m-{r}-{r}l{d} {d}m0-{d}l-{d} {d}"),
+        Pen::Diamonds(_) => format!("m0-{r}l{r} {r}-{r} {r}-{r}-{r}z"),
+        // The ends of a line without length make a disc or a square of it, at a tenth of a circle's text.
+        _ => "h0".to_owned(),
+    }
+}
+
+/// The attributes of marks.
+fn marked(colour: Rgba, pen: Pen, radius: f64) -> String {
+    match pen {
+        Pen::Diamonds(_) => filled(colour),
+        Pen::Rings(_) | Pen::Crosses(_) => format!(" fill=\"none\"{}", stroke(colour, 1.2)),
+        _ => {
+            let cap = if matches!(pen, Pen::Squares(_)) { "square" } else { "round" };
+            format!(" fill=\"none\"{} stroke-linecap=\"{cap}\"", stroke(colour, 2.0 * radius))
+        }
+    }
+}
+
 /// The attributes of a line.
 fn drawn(colour: Rgba, pen: Pen) -> String {
     // A little thinner than on a screen, as prints are looked at from near.
@@ -289,7 +301,12 @@ fn drawn(colour: Rgba, pen: Pen) -> String {
             stroke(colour, 1.6 * f64::from(radius)),
             short(0.8 * f64::from(spacing))
         ),
-        Pen::Line(size) | Pen::Points(size) | Pen::Rings(size) => stroke(colour, 0.8 * f64::from(size)),
+        Pen::Line(size)
+        | Pen::Points(size)
+        | Pen::Rings(size)
+        | Pen::Crosses(size)
+        | Pen::Diamonds(size)
+        | Pen::Squares(size) => stroke(colour, 0.8 * f64::from(size)),
     }
 }
 
@@ -308,7 +325,7 @@ enum Sample<'a> {
 impl Entry<'_> {
     fn lead(&self) -> f64 {
         match &self.sample {
-            Sample::Pen(_, Pen::Points(_) | Pen::Rings(_)) => 18.0,
+            Sample::Pen(_, pen) if pen.mark().is_some() => 18.0,
             Sample::Pen(..) => 34.0,
             Sample::Swatch(_) => 18.0,
             Sample::Scale(_, low) => width(low, TEXT) + 122.0,
@@ -361,14 +378,10 @@ fn sample(out: &mut String, sample: &Sample<'_>, x: f64, middle: f64) {
                 filled(*colour)
             );
         }
-        Sample::Pen(colour, Pen::Points(radius)) => {
-            let (x, r) = (short(x + 6.0), short(f64::from(*radius).max(2.0)));
-            let _ = writeln!(out, "<circle cx=\"{x}\" cy=\"{at}\" r=\"{r}\"{}/>", filled(*colour));
-        }
-        Sample::Pen(colour, Pen::Rings(radius)) => {
-            let (x, r) = (short(x + 6.0), short(f64::from(*radius)));
-            let look = stroke(*colour, 1.2);
-            let _ = writeln!(out, "<circle cx=\"{x}\" cy=\"{at}\" r=\"{r}\" fill=\"none\"{look}/>");
+        Sample::Pen(colour, pen) if pen.mark().is_some() => {
+            let radius = f64::from(pen.mark().unwrap_or_default()).max(2.0);
+            let (x, path) = (short(x + 6.0), mark(*pen, radius));
+            let _ = writeln!(out, "<path d=\"M{x} {at}{path}\"{}/>", marked(*colour, *pen, radius));
         }
         Sample::Pen(colour, pen) => {
             let _ = writeln!(out, "<path d=\"M{left} {at}h28\" fill=\"none\"{}/>", drawn(*colour, *pen));

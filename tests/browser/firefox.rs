@@ -19,8 +19,8 @@ fn the_page_works_in_firefox_also_without_a_network() {
     let before = number(&mut page, "Frequency");
     drag_slider(&mut page, "Frequency", 0.3, 0.6, 8);
     assert!((number(&mut page, "Frequency") - before).abs() > 1.0);
-    page.keys(&[], '3');
-    page.wait_until("the third tab", |state| state["view"]["tab"] == "sweep");
+    page.keys(&[], '4');
+    page.wait_until("the sweep tab", |state| state["view"]["tab"] == "sweep");
     page.keys(&[], '1');
     page.keys(&[], ESCAPE);
     page.keys(&[], TAB);

@@ -66,7 +66,7 @@ fn tab_goes_round_all_controls_of_every_tab() {
     page.keys(&[], 'b');
     page.wait_until("the beam to be held", |state| state["view"]["beam_moves"] == false);
     for (key, tab) in
-        ['1', '2', '3', '4', '5'].into_iter().zip(["explore", "stability", "sweep", "design", "paper"])
+        ['1', '3', '4', '5', '6'].into_iter().zip(["explore", "stability", "sweep", "design", "paper"])
     {
         page.keys(&[], key);
         page.wait_until("the tab", |state| state["view"]["tab"] == tab);

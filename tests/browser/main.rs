@@ -4,11 +4,13 @@ mod agreement;
 mod axe;
 mod design;
 mod driver;
+mod embed;
 mod export;
 mod failure;
 mod firefox;
 mod keyboard;
 mod lessons;
+mod live;
 mod mirror;
 mod offline;
 mod page;
@@ -197,7 +199,12 @@ fn screenshots() {
     for size in sizes.split_whitespace() {
         let (pixels, theme) = size.split_once('-').expect("like 1440x900-dark");
         let (width, height) = pixels.split_once('x').expect("like 1440x900-dark");
-        let theme = if theme == "light" { Theme::Light } else { Theme::Dark };
+        let theme = match theme {
+            "light" => Theme::Light,
+            "dark-contrast" => Theme::DarkContrast,
+            "light-contrast" => Theme::LightContrast,
+            _ => Theme::Dark,
+        };
         page.resize(width.parse().expect("a width"), height.parse().expect("a height"), theme);
         sleep(Duration::from_millis(settle));
         println!("{}", page.screenshot(&format!("{name}-{size}")).display());

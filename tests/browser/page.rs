@@ -30,6 +30,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 pub(crate) enum Theme {
     Dark,
     Light,
+    /// The same for those who need more contrast.
+    DarkContrast,
+    LightContrast,
 }
 
 /// One widget of the page.
@@ -95,6 +98,12 @@ impl Page {
         let url = self.files.url();
         self.browser.goto(&url);
         self.wait_ready();
+    }
+
+    /// Loads another file of the same folder.
+    pub(crate) fn goto_file(&self, name: &str) {
+        let url = self.files.url() + name;
+        self.browser.goto(&url);
     }
 
     /// A script that runs in the page before its own, from the next load on.
@@ -251,6 +260,35 @@ impl Page {
         moves.push(json!({ "type": "pointerUp", "button": 0 }));
         let mouse = json!({ "type": "pointer", "id": "mouse", "actions": moves });
         self.browser.perform(&json!({ "actions": [mouse] }));
+    }
+
+    /// Turns the wheel down over a place, by so many pixels.
+    pub(crate) fn wheel(&self, (x, y): (f64, f64), by: i64) {
+        let turn = json!({ "type": "scroll", "x": x as i64, "y": y as i64, "deltaX": 0, "deltaY": by, "duration": 50 });
+        let wheel = json!({ "type": "wheel", "id": "wheel", "actions": [turn] });
+        self.browser.perform(&json!({ "actions": [wheel] }));
+    }
+
+    /// From now on the screen can be touched.
+    pub(crate) fn touches(&self) {
+        let parameters = json!({ "enabled": true, "maxTouchPoints": 5 });
+        self.browser.devtools("Emulation.setTouchEmulationEnabled", &parameters);
+    }
+
+    /// Moves a finger.
+    pub(crate) fn swipe(&self, from: (f64, f64), to: (f64, f64)) {
+        let mut moves = vec![
+            json!({ "type": "pointerMove", "duration": 0, "x": from.0, "y": from.1 }),
+            json!({ "type": "pointerDown", "button": 0 }),
+        ];
+        for step in 1..=12 {
+            let part = f64::from(step) / 12.0;
+            let at = (from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1));
+            moves.push(json!({ "type": "pointerMove", "duration": 16, "x": at.0, "y": at.1 }));
+        }
+        moves.push(json!({ "type": "pointerUp", "button": 0 }));
+        let finger = json!({ "type": "pointer", "id": "finger", "parameters": { "pointerType": "touch" }, "actions": moves });
+        self.browser.perform(&json!({ "actions": [finger] }));
     }
 
     /// Presses a key while others are held down.

@@ -62,7 +62,8 @@ pub struct Step<'a> {
     pub tables: &'a StepTables,
     /// The linear part's flow, for the motion within the step.
     pub propagator: &'a Propagator,
-    /// Position within the excitation period, in steps of this length; 0 at t = 2 pi k / omega.
+    /// Position within the excitation period, in steps of this length; 0 at t = 2 pi k / omega, where a run that began
+    /// at a phase of its own has that phase again.
     pub index: usize,
 }
 
@@ -76,6 +77,8 @@ pub struct Collocation {
     settings: Settings,
     period: f64,
     beta: f64,
+    /// Of the excitation at time 0 (radians).
+    phase: f64,
     gap: f64,
     /// Steps a period at level 0.
     coarsest: usize,
@@ -110,6 +113,19 @@ impl Collocation {
         initial: &[f64],
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
+        Self::from_phase(system, initial, 0.0, settings)
+    }
+
+    /// The same with the excitation's `phase` (radians) at time 0: how a motion goes on when a number has changed.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn from_phase(
+        system: &ReducedSystem,
+        initial: &[f64],
+        phase: f64,
+        settings: Settings,
+    ) -> Result<Self, IntegrationError> {
         let dimension = system.dimension();
         check_state(initial, dimension)?;
         let part = LinearPart::new(system);
@@ -118,9 +134,10 @@ impl Collocation {
         let propagator = Propagator::new(&part, period / coarsest as f64);
         let mut extended = initial.to_vec();
         let beta = system.parameters.beta;
-        extended.extend([0.0, beta]);
+        extended.extend([beta * phase.sin(), beta * phase.cos()]);
         Ok(Self {
             coarsest,
+            phase,
             part,
             propagator,
             force: system.rest_force(),
@@ -336,7 +353,8 @@ impl Collocation {
             self.periods += 1;
         }
         let dimension = self.part.modes * 2 + 1;
-        let (sine, cosine) = (TAU * self.index as f64 / self.steps_per_period() as f64).sin_cos();
+        let angle = self.phase + TAU * self.index as f64 / self.steps_per_period() as f64;
+        let (sine, cosine) = angle.sin_cos();
         self.extended[dimension] = self.beta * sine;
         self.extended[dimension + 1] = self.beta * cosine;
     }

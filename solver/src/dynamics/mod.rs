@@ -4,6 +4,7 @@
 //! * [`collocation`] is the integrator behind everything else: the linear beam and circuit are carried by their
 //!   exact [`propagator`], the magnet's rest force by Gauss-Legendre collocation; [`linear`] and [`tables`] prepare it.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`poincare`] and [`summary`] read them.
+//! * [`ongoing`] is a motion without an end, whose numbers may change on the way.
 //! * [`period_map`] is the stroboscopic map with its exact derivative, [`newton`] finds its fixed points, [`orbit`]
 //!   and [`floquet`] say what they are.
 //! * [`sweep`] carries a motion from one value of a parameter to the next.
@@ -33,6 +34,7 @@ pub mod lyapunov;
 mod meter;
 pub mod motion;
 pub mod newton;
+pub mod ongoing;
 pub mod orbit;
 pub mod orbit_error;
 pub mod outcome;
@@ -69,6 +71,7 @@ pub use inquiry::Inquiry;
 pub use lyapunov::{Exponent, Lyapunov};
 pub use motion::{Horizon, Motion, Reached, reach};
 pub use newton::OrbitSolver;
+pub use ongoing::{Ongoing, Reach};
 pub use orbit::Orbit;
 pub use orbit_error::OrbitError;
 pub use outcome::{IntegrationError, Outcome};

@@ -5,10 +5,15 @@ use wasm_bindgen::prelude::Closure;
 
 use crate::app::text::Language;
 
-/// The address without a fragment; nothing where it cannot be read.
+/// The address of the whole page, without query and fragment; nothing where it cannot be read.
 pub(super) fn base() -> String {
     let href = web_sys::window().and_then(|window| window.location().href().ok()).unwrap_or_default();
-    href.split('#').next().unwrap_or_default().to_owned()
+    href.split(['#', '?']).next().unwrap_or_default().to_owned()
+}
+
+/// The part of the address from `?` on, or nothing.
+pub(super) fn search() -> String {
+    web_sys::window().and_then(|window| window.location().search().ok()).unwrap_or_default()
 }
 
 /// The fragment with its `#`, or nothing.

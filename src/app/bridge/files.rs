@@ -24,6 +24,10 @@ pub(super) fn run(errand: &Errand) {
             wasm_bindgen_futures::spawn_local(picture(name.clone(), drawing.clone(), *scale));
             Some(())
         }
+        Errand::Sound(samples) => {
+            shell::play(samples, crate::app::live::RATE);
+            Some(())
+        }
         Errand::Open => open(),
         Errand::Fetch(language) => {
             wasm_bindgen_futures::spawn_local(learn(*language));

@@ -5,6 +5,7 @@
 //! the exported functions into `window.harvester`.
 
 mod address;
+mod around;
 mod controls;
 pub mod exports;
 mod files;
@@ -53,8 +54,11 @@ pub fn start() {
         shell::fail("Harvester Lab cannot start", "the page has no canvas");
         return;
     };
-    let options =
-        eframe::WebOptions { webgl_context_option: eframe::WebGlContextOption::WebGl2, ..Default::default() };
+    let options = eframe::WebOptions {
+        webgl_context_option: eframe::WebGlContextOption::WebGl2,
+        should_prevent_default: Box::new(keeps),
+        ..Default::default()
+    };
     wasm_bindgen_futures::spawn_local(async move {
         let runner = eframe::WebRunner::new();
         let started =
@@ -64,6 +68,14 @@ pub fn start() {
             shell::fail("Harvester Lab cannot start", &reason);
         }
     });
+}
+
+/// Whether the page keeps an event for itself, so that the browser does nothing more with it.
+fn keeps(event: &egui::Event) -> bool {
+    RUNNING.with_borrow(|slot| {
+        let app = slot.as_ref().and_then(|running| Some((running.app.try_borrow().ok()?, &running.context)));
+        app.is_none_or(|(app, context)| app.keeps(context, event))
+    })
 }
 
 /// Milliseconds between pictures of work that goes on.
@@ -116,7 +128,9 @@ fn open_address() {
     change(|app, keeper| {
         let fragment = address::fragment();
         app.open_link(&fragment);
-        keeper.opened((!fragment.is_empty()).then(|| app.fragment()));
+        if !app.is_embedded() {
+            keeper.opened((!fragment.is_empty()).then(|| app.fragment()));
+        }
     });
 }
 
@@ -126,12 +140,18 @@ struct Page {
     keeper: Rc<RefCell<storage::Keeper>>,
     mirror: mirror::Mirror,
     recorder: Recorder,
+    contrast: around::Contrast,
+    /// The look that the shell was told last.
+    look: Option<(bool, bool)>,
     shown: bool,
 }
 
 impl Page {
     fn new(context: &egui::Context) -> Self {
-        let keeper = storage::Keeper::open();
+        let search = address::search();
+        let embedded = crate::app::embed::Embed::read(&search).is_some();
+        // An embedded page begins with what its address says, and leaves what the whole page remembers alone.
+        let keeper = if embedded { storage::Keeper::absent() } else { storage::Keeper::open() };
         let crew = crew(context.clone());
         let mut app = App::new(context, keeper.stored(), Rc::clone(&crew));
         app.prefer_language(address::page_language());
@@ -139,6 +159,12 @@ impl Page {
         app.set_address(address::base());
         if let Some(language) = asked {
             app.choose_language(language);
+        }
+        app.embed(&search);
+        let contrast = around::Contrast::watch(context);
+        app.set_system_contrast(contrast.is_wished());
+        if around::has_coarse_pointer() {
+            crate::app::widgets::touch::expect_fingers(context);
         }
         let app = Rc::new(RefCell::new(app));
         let keeper = Rc::new(RefCell::new(keeper));
@@ -153,7 +179,7 @@ impl Page {
         }));
         open_address();
         address::watch(open_address);
-        Self { app, keeper, mirror: mirror::Mirror::default(), recorder, shown: false }
+        Self { app, keeper, mirror: mirror::Mirror::default(), recorder, contrast, look: None, shown: false }
     }
 }
 
@@ -168,7 +194,13 @@ impl eframe::App for Page {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.app.borrow_mut().set_system_contrast(self.contrast.is_wished());
         self.app.borrow_mut().ui(ui);
+        let look = self.app.borrow().look(ui.ctx());
+        if self.look != Some(look) {
+            self.look = Some(look);
+            shell::look(look.0, look.1);
+        }
         let errands = self.app.borrow_mut().take_errands();
         errands.iter().for_each(files::run);
         // In the language chosen from the first picture on.
@@ -177,6 +209,10 @@ impl eframe::App for Page {
             shell::ready();
         }
         self.mirror.tick(&self.app.borrow(), ui.ctx());
+    }
+
+    fn raw_input_hook(&mut self, ctx: &egui::Context, raw_input: &mut egui::RawInput) {
+        self.app.borrow().sift(ctx, &mut raw_input.events);
     }
 
     fn save(&mut self, _storage: &mut dyn eframe::Storage) {

@@ -1,4 +1,4 @@
-//! The calls into the script of the page (`assets/shell/start.js`, `assets/shell/picture.js`).
+//! The calls into the script of the page (`start.js`, `picture.js` and `sound.js` of `assets/shell`).
 
 use js_sys::Promise;
 use wasm_bindgen::JsValue;
@@ -9,6 +9,10 @@ extern "C" {
     /// Takes the loading screen away.
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn ready();
+
+    /// Gives what stands around the canvas the colours of the theme.
+    #[wasm_bindgen(js_namespace = harvesterShell)]
+    pub(super) fn look(dark: bool, contrast: bool);
 
     /// Replaces the page by a screen that says what happened and offers the stored state.
     #[wasm_bindgen(js_namespace = harvesterShell)]
@@ -29,6 +33,10 @@ extern "C" {
     /// Saves a picture of a drawing (SVG) under this name, with `scale` times its pixels.
     #[wasm_bindgen(js_name = harvesterSavePicture)]
     pub(super) fn save_picture(name: &str, drawing: &str, scale: u8) -> Promise;
+
+    /// Plays samples after those before them, at `rate` samples a second; none ends the sound.
+    #[wasm_bindgen(js_name = harvesterPlay)]
+    pub(super) fn play(samples: &[f32], rate: f64);
 
     /// A new worker that has been told to run this (compiled) `module`, or null.
     #[wasm_bindgen(js_namespace = harvesterShell)]

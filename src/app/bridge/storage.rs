@@ -28,6 +28,11 @@ impl Keeper {
         Self { storage, written, opened: None, touched: false, looked: 0.0 }
     }
 
+    /// One that neither reads nor writes.
+    pub(super) fn absent() -> Self {
+        Self { storage: None, written: None, opened: None, touched: false, looked: 0.0 }
+    }
+
     /// The state as last read or written.
     pub(super) fn stored(&self) -> Option<&str> {
         self.written.as_deref()

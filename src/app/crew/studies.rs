@@ -1,10 +1,12 @@
 //! What is being studied for the page: one lane a topic, the newest question of each.
 
 use super::bench::BenchStudies;
+use crate::app::embed::{self, Embed};
 use crate::app::map::{self, Structure};
 use crate::app::questions;
 use crate::app::session::Session;
-use crate::app::view::{Layer, Tab, View};
+use crate::app::view::design::{DesignView, Page};
+use crate::app::view::{Layer, Panel, Tab, View};
 use crate::dynamics::tongue::Window;
 use crate::jobs::foreman::{Lane, Traffic};
 use crate::jobs::inspection::Inspection;
@@ -135,9 +137,10 @@ impl Studies {
     }
 
     /// Asks for what the view shows.
-    pub(in crate::app) fn follow(&mut self, view: &View, session: &Session) {
+    pub(in crate::app) fn follow(&mut self, view: &View, session: &Session, embed: Option<&Embed>) {
         let ceiling = map::ceiling(view.map, view.scenario.parameters.beta);
-        let designs = view.tab == Tab::Design;
+        let designs = embed.is_none() && view.tab == Tab::Design;
+        let wanted = |panel| embed.map_or(embed::tab(panel) == view.tab, |embed| embed.shows(panel));
         if designs {
             self.bench.follow(view, session);
         }
@@ -152,44 +155,53 @@ impl Studies {
         if view.scenario.model.modes > 1 {
             self.ask_tongues(&view.scenario, ceiling);
         }
-        match (view.tab, &session.boundaries) {
-            (Tab::Stability, Some(boundaries)) if view.layer == Layer::Multiplier => {
-                let question = questions::chart(view, boundaries);
-                if self.multipliers.study().is_none_or(|chart| *chart.question() != question) {
-                    self.multipliers.ask(MultiplierChart::new(question));
-                }
-            }
-            (Tab::Stability, Some(boundaries)) => {
-                let question = questions::motions(view, boundaries);
-                if self.motions.study().is_none_or(|chart| *chart.question() != question) {
-                    self.motions.ask(MotionChart::new(question));
-                }
-            }
-            _ => {}
+        if let Some(boundaries) = &session.boundaries
+            && wanted(Panel::Chart)
+        {
+            self.ask_chart(view, boundaries);
         }
-        match view.tab {
-            Tab::Stability => {
-                let question = questions::curves(view, session);
-                if let Some(question) = question
-                    && self.curves.study().is_none_or(|curves| *curves.question() != question)
-                {
-                    self.curves.ask(CurvesStudy::new(question));
-                }
-                if let Ok(question) = questions::basin(view)
-                    && self.basin.study().is_none_or(|basin| *basin.question() != question)
-                    && let Ok(basin) = Basin::new(question)
-                {
-                    self.basin.ask(basin);
+        if wanted(Panel::Curves)
+            && let Some(question) = questions::curves(view, session)
+            && self.curves.study().is_none_or(|curves| *curves.question() != question)
+        {
+            self.curves.ask(CurvesStudy::new(question));
+        }
+        if wanted(Panel::Basins)
+            && let Ok(question) = questions::basin(view)
+            && self.basin.study().is_none_or(|basin| *basin.question() != question)
+            && let Ok(basin) = Basin::new(question)
+        {
+            self.basin.ask(basin);
+        }
+        if wanted(Panel::OrbitDiagram) || wanted(Panel::Response) {
+            let question = questions::sweep(view, session);
+            if self.sweep.study().is_none_or(|sweep| *sweep.question() != question) {
+                self.sweep.ask(SweepStudy::new(question, &[Direction::Up, Direction::Down]));
+            }
+            offer(&mut self.response, questions::response(view, session));
+        }
+        if embed.is_some() {
+            for (panel, page) in [(Panel::Harvest, Page::Harvest), (Panel::Load, Page::Load)] {
+                if wanted(panel) {
+                    let design = DesignView { page, ..view.design.clone() };
+                    self.bench.follow(&View { design, ..view.clone() }, session);
                 }
             }
-            Tab::Sweep => {
-                let question = questions::sweep(view, session);
-                if self.sweep.study().is_none_or(|sweep| *sweep.question() != question) {
-                    self.sweep.ask(SweepStudy::new(question, &[Direction::Up, Direction::Down]));
-                }
-                offer(&mut self.response, questions::response(view, session));
+        }
+    }
+
+    /// Asks for the chart over frequency and amplitude.
+    fn ask_chart(&mut self, view: &View, boundaries: &map::Boundaries) {
+        if view.layer == Layer::Multiplier {
+            let question = questions::chart(view, boundaries);
+            if self.multipliers.study().is_none_or(|chart| *chart.question() != question) {
+                self.multipliers.ask(MultiplierChart::new(question));
             }
-            _ => {}
+        } else {
+            let question = questions::motions(view, boundaries);
+            if self.motions.study().is_none_or(|chart| *chart.question() != question) {
+                self.motions.ask(MotionChart::new(question));
+            }
         }
     }
 

@@ -48,7 +48,7 @@ impl Desk {
 #[test]
 fn tab_reaches_every_control_of_every_page_and_brings_it_into_view() {
     let pages = ["harvest", "load", "materials", "trust", "search", "measured"];
-    let tabs = ["explore", "stability", "sweep", "paper"].map(|tab| (tab, "harvest"));
+    let tabs = ["explore", "live", "stability", "sweep", "paper"].map(|tab| (tab, "harvest"));
     for (tab, page) in tabs.into_iter().chain(pages.map(|page| ("design", page))) {
         for width in [360.0, 1440.0] {
             let stored = format!(
@@ -89,7 +89,7 @@ fn tab_reaches_every_control_of_every_page_and_brings_it_into_view() {
 fn keys_do_what_the_list_says() {
     let mut desk = Desk::new(1440.0, r#"{"scenario":{"t_end":100}}"#);
     let plain = Modifiers::NONE;
-    desk.press(Key::Num3, plain);
+    desk.press(Key::Num4, plain);
     assert_eq!(desk.app.view.tab, Tab::Sweep);
     desk.press(Key::Num1, plain);
     for plot in [Some(Panel::StabilityMap), Some(Panel::PhasePortrait)] {
@@ -111,10 +111,47 @@ fn keys_do_what_the_list_says() {
     desk.press(Key::Num2, plain);
     assert_eq!(desk.app.view.tab, Tab::Explore);
     desk.press(Key::Escape, plain);
-    desk.press(Key::Num2, plain);
+    desk.press(Key::Num3, plain);
     assert_eq!(desk.app.view.tab, Tab::Stability);
     desk.press(Key::Z, Modifiers::COMMAND);
     assert_eq!(desk.app.view.tab, Tab::Explore);
+}
+
+#[test]
+fn the_live_run_has_keys_and_leaves_undo_alone() {
+    let mut desk = Desk::new(1440.0, r#"{"scenario":{"t_end":100},"tab":"live"}"#);
+    let plain = Modifiers::NONE;
+    let turns = |desk: &Desk| desk.app.live.now().map_or(f64::NAN, |(_, _, now)| now.turns);
+    let running = turns(&desk);
+    desk.rest(10);
+    assert!(turns(&desk) > running && running >= 0.0);
+    desk.press(Key::Space, plain);
+    let paused = turns(&desk);
+    desk.rest(10);
+    assert_eq!(turns(&desk), paused);
+    desk.press(Key::Period, plain);
+    assert_eq!(turns(&desk), paused + 1.0);
+    desk.press(Key::S, plain);
+    assert!(desk.app.live.sounds());
+    desk.press(Key::S, plain);
+    desk.press(Key::R, plain);
+    assert_eq!((turns(&desk), desk.app.live.sounds()), (0.0, false));
+    // A slider that was dragged does not keep Space to itself.
+    let slider = desk.harness.find(egui::Role::Slider, "Damping").bounds;
+    let Desk { app, harness } = &mut desk;
+    harness.drag(slider.center(), slider.center() + egui::vec2(20.0, 0.0), |ui| app.ui(ui));
+    desk.press(Key::Space, plain);
+    let before = turns(&desk);
+    desk.rest(10);
+    assert!(turns(&desk) > before);
+    // The drag is the one step there is.
+    desk.press(Key::K, plain);
+    desk.press(Key::Z, Modifiers::COMMAND);
+    assert!(!desk.app.history.can().0);
+    for plot in [Some(Panel::Oscilloscope), Some(Panel::LivePortrait), Some(Panel::LiveBeam), None] {
+        desk.press(Key::F, plain);
+        assert_eq!(desk.app.view.enlarged, plot);
+    }
 }
 
 #[test]

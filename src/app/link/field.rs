@@ -6,6 +6,7 @@ use super::number;
 use crate::app::lessons::STEPS;
 use crate::app::view::View;
 use crate::app::view::design::{FREQUENCIES, POWERS};
+use crate::app::view::live::{KICKS, SPEEDS, WINDOWS};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::study::find::GENERATIONS;
 use crate::jobs::study::sweep::COUNTS;
@@ -111,10 +112,15 @@ pub(super) fn fields() -> Vec<Field> {
         add(&format!("/design/search/{side}/range"), Kind::Numbers(Some(2), (0.0, f64::MAX)));
     }
     add("/design/search/generations", Kind::Whole(GENERATIONS.0, GENERATIONS.1));
+    add("/live/trace", Kind::Word);
+    add("/live/speed", Kind::Number(SPEEDS, "periods a second"));
+    add("/live/periods", Kind::Whole(WINDOWS.0, WINDOWS.1));
+    add("/live/kick", Kind::Number(KICKS, ""));
     add("/lesson", Kind::Word);
     add("/step", Kind::Whole(1, STEPS));
     add("/lang", Kind::Word);
     add("/dark", Kind::Flag);
+    add("/contrast", Kind::Flag);
     add("/projector", Kind::Flag);
     add("/beam_moves", Kind::Flag);
     fields

@@ -9,6 +9,7 @@ use super::*;
 use crate::app::lessons::{LessonId, STEPS};
 use crate::app::text::Language;
 use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched};
+use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
 use crate::app::view::{Layer, MapWindow, Output, Panel, SweepView, Tab};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::design::trust::Quantity;
@@ -18,7 +19,8 @@ use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Limits, Param
 use crate::scenario::{END_TIME, ModelChoice, VERSION};
 use crate::theory::Resonance;
 
-const TABS: [Tab; 6] = [Tab::Explore, Tab::Stability, Tab::Sweep, Tab::Design, Tab::Paper, Tab::Lessons];
+const TABS: [Tab; 7] =
+    [Tab::Explore, Tab::Live, Tab::Stability, Tab::Sweep, Tab::Design, Tab::Paper, Tab::Lessons];
 const MAPS: [MapWindow; 4] = [MapWindow::All, MapWindow::First, MapWindow::Sum, MapWindow::Second];
 const LAYERS: [Layer; 4] = [Layer::Multiplier, Layer::Motion, Layer::Voltage, Layer::Power];
 const OUTPUTS: [Output; 3] = [Output::Voltage, Output::Power, Output::Tip];
@@ -153,34 +155,45 @@ fn design() -> impl Strategy<Value = DesignView> {
     )
 }
 
+fn live() -> impl Strategy<Value = LiveView> {
+    let trace = select(&[Trace::Voltage, Trace::Tip][..]);
+    (trace, within(SPEEDS), WINDOWS.0..=WINDOWS.1, within(KICKS))
+        .prop_map(|(trace, speed, periods, kick)| LiveView { trace, speed, periods, kick })
+}
+
 /// Every field is named: one that is added to a view is asked for here by the compiler.
 fn view() -> impl Strategy<Value = View> {
     let languages = option::of(select(&Language::ALL[..]));
-    let looks = (option::of(any::<bool>()), any::<bool>(), any::<bool>(), languages);
+    let looks =
+        (option::of(any::<bool>()), any::<bool>(), any::<bool>(), option::of(any::<bool>()), languages);
     let front = (select(&TABS[..]), select(&MAPS[..]), select(&LAYERS[..]), option::of(select(&PANELS[..])));
     let plane = (0..5_usize, 1..5_usize)
         .prop_map(|(x, step)| [curves::PARAMETERS[x], curves::PARAMETERS[(x + step) % 5]]);
     let lesson = (option::of(select(LessonId::all().collect::<Vec<_>>())), 1..=STEPS);
-    (scenario(), front, sweep(), plane, 2..=12_u8, design(), looks, lesson)
-        .prop_map(|(scenario, (tab, map, layer, enlarged), sweep, plane, figure, design, looks, lesson)| {
-            View {
-                scenario,
-                tab,
-                dark: looks.0,
-                language: looks.3,
-                projector: looks.1,
-                map,
-                figure,
-                enlarged,
-                beam_moves: looks.2,
-                layer,
-                sweep,
-                plane,
-                design,
-                lesson: lesson.0,
-                step: lesson.1,
-            }
-        })
+    (scenario(), front, sweep(), plane, 2..=12_u8, (design(), live()), looks, lesson)
+        .prop_map(
+            |(scenario, (tab, map, layer, enlarged), sweep, plane, figure, (design, live), looks, lesson)| {
+                View {
+                    scenario,
+                    tab,
+                    dark: looks.0,
+                    contrast: looks.3,
+                    language: looks.4,
+                    projector: looks.1,
+                    map,
+                    figure,
+                    enlarged,
+                    beam_moves: looks.2,
+                    layer,
+                    sweep,
+                    plane,
+                    design,
+                    live,
+                    lesson: lesson.0,
+                    step: lesson.1,
+                }
+            },
+        )
         // Attracting magnets can leave no equilibrium.
         .prop_filter("a view that can be computed", |view| view.check().is_ok())
 }
@@ -275,7 +288,7 @@ fn a_link_is_readable() {
 /// Never change one of these: they stand in people's slides. A default that changes breaks them, too.
 #[test]
 fn old_links_keep_their_meaning() {
-    let usual = r#"{"beam_moves":true,"dark":null,"enlarged":null,"figure":9,"lang":null,"layer":"multiplier","map":"first",
+    let usual = r#"{"beam_moves":true,"contrast":null,"dark":null,"enlarged":null,"figure":9,"lang":null,"layer":"multiplier","map":"first",
         "plane":["omega","beta"],"projector":false,"scenario":{"initial":null,"model":{"force":"quadratic","modes":2},
         "parameters":{"alpha":0.001,"beta":0.001,"c":1e-6,"c0":0.5084,"d":0.15,"eta":0.02,"h":0.004167,"kappa":1e-6,
         "omega":25.0,"theta":0.0002},"t_end":600.0,"version":2},"sweep":{"count":240,"dwell":{"discarded":200,"kept":64},
@@ -283,7 +296,8 @@ fn old_links_keep_their_meaning() {
         "design":{"page":"harvest","dimensionless":false,"holds_acceleration":true,"watched":"power",
         "logarithmic":false,"window":null,"least":null,"limits":{"voltage":null,"gap":1.0,"deflection":0.3,"slope":0.3},
         "mode":1,"resonance":"first","quantity":"power","search":{"aim":"power","sides":[{"dimension":"frequency",
-        "range":null},{"dimension":"resistance","range":null}],"third":null,"generations":20}},"lesson":null,"step":1}"#;
+        "range":null},{"dimension":"resistance","range":null}],"third":null,"generations":20}},
+        "live":{"trace":"voltage","speed":2.0,"periods":12,"kick":0.2},"lesson":null,"step":1}"#;
     let mut usual: Value = serde_json::from_str(usual).expect("JSON");
     usual["scenario"]["version"] = VERSION.into();
     let (mut expected, problems) = read("#v=1", &View::default());
@@ -317,7 +331,7 @@ fn a_bad_link_loads_what_is_valid_and_says_what_was_not() {
             "omega = fast (not a number; allowed are 0.1 to 500)",
             "modes = 9 (allowed are whole numbers from 1 to 8)",
             "force = taylor99 (allowed are quadratic, taylor2 to taylor15 and exact)",
-            "tab = dance (allowed are explore, stability, sweep, design, paper, lessons)",
+            "tab = dance (allowed are explore, live, stability, sweep, design, paper, lessons)",
             "colour = red (not a name this page knows)",
             "beam_length = -1 (allowed are 1e-15 to 1e15 m)",
             "resistance = none (not a number; allowed are 1e-15 to 1e15 ohm, or open)",

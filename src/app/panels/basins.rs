@@ -85,7 +85,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
     let tokens = theme::tokens(ui);
     let question = basin.question();
     let lane = context.studies.basin.generation();
-    let revision = basin.chart().version() ^ (lane << 32) ^ u64::from(tokens.dark) << 63;
+    let revision = basin.chart().version() ^ (lane << 32) ^ tokens.number() << 62;
     let picture = raster(ui, Id::unique("basins"), revision, question.size, &|column, row| {
         let cell = basin.shown(column, row)?;
         let attractor = cell.and_then(|index| attractors.get(index));

@@ -16,6 +16,11 @@ const HEIGHT: f32 = 210.0;
 
 /// Draws the card with the moving beam.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    show_in(context, ui, HEIGHT);
+}
+
+/// The same with a picture of this height.
+pub(super) fn show_in(context: &mut Context<'_>, ui: &mut Ui, height: f32) {
     let Some(shown) = context.shown() else { return };
     let (run, curves) = (&shown.run, &shown.curves);
     let moves = context.view.beam_moves && run.outcome() == Outcome::Completed;
@@ -57,7 +62,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         if p.c0 != 0.0 && run.outcome() == Outcome::Completed {
             beam = beam.gap(open);
         }
-        beam.show(ui, HEIGHT);
+        beam.show(ui, height);
     });
     if card.pressed.is_some() {
         context.commands.push(Command::MoveBeam(!context.view.beam_moves));

@@ -130,7 +130,7 @@ struct Picture {
 fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
     let tokens = theme::tokens(ui);
     let revision = |version: u64, generation: u64| {
-        version ^ (generation << 32) ^ ((layer as u64) << 60) ^ (u64::from(tokens.dark) << 63)
+        version ^ (generation << 32) ^ ((layer as u64) << 60) ^ (tokens.number() << 62)
     };
     if layer == Layer::Multiplier {
         let chart = context.studies.multipliers.study()?;

@@ -5,6 +5,7 @@ use egui::Ui;
 use super::{Context, beam, device, structure};
 use crate::app::map::Boundaries;
 use crate::app::text::{fill, tr};
+use crate::app::view::Tab;
 use crate::app::widgets::{Mark, ParameterSlider};
 use crate::model::{Parameter, ParameterSet, Units};
 
@@ -37,8 +38,11 @@ pub(in crate::app) fn below(context: &mut Context<'_>, ui: &mut Ui) {
     } else {
         structure::show(context, ui);
     }
-    ui.add_space(4.0);
-    beam::show(context, ui);
+    // The Live tab has its own.
+    if context.view.tab != Tab::Live {
+        ui.add_space(4.0);
+        beam::show(context, ui);
+    }
 }
 
 /// Damping, excitation, frequency.

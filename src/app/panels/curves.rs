@@ -9,7 +9,7 @@ use crate::app::text::{fill, reworded, tr};
 use crate::app::view::Panel;
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips};
+use crate::app::widgets::{Series, chips, legend};
 use crate::app::{colours, questions, theme};
 use crate::dynamics::Instability;
 use crate::jobs::study::Study as _;
@@ -58,15 +58,12 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     if [x, y] != before {
         context.commands.push(Command::OpenPlane([x, y]));
     }
-    let tokens = theme::tokens(ui);
-    let kind = |kind| colours::instability(kind, tokens);
-    crate::app::widgets::swatches(
+    legend::legend(
         ui,
         &[
-            (kind(Instability::PeriodDoubling), tr("period doubling")),
-            (kind(Instability::NeimarkSacker), tr("Neimark–Sacker (torus)")),
-            (kind(Instability::Fold), tr("fold")),
-            (tokens.text_strong, tr("where they meet")),
+            (Series::Exact, tr("period doubling")),
+            (Series::Torus, tr("Neimark–Sacker (torus)")),
+            (Series::Fold, tr("fold")),
         ],
     );
 }

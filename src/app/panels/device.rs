@@ -70,7 +70,7 @@ pub(in crate::app) fn words(dimension: Dimension) -> Words {
             (tr("Gravity"), "g", "m/s²", 1.0, tr("Acceleration of gravity, which makes the beam sag."))
         }
         Dimension::Capacitance => (tr("Capacity"), "C", "nF", 1e9, tr("Capacitance C_eq of the ceramic.")),
-        Dimension::Resistance => (tr("Load"), "R", "kΩ", 1e-3, tr("Load resistance R_eq.")),
+        Dimension::Resistance => (tr("Load"), "R", "MΩ", 1e-6, tr("Load resistance R_eq.")),
         Dimension::Coupling => (tr("Coupling"), "Θ", "µN/V", 1e6, tr("Electromechanical coupling.")),
         Dimension::BaseAmplitude => (tr("Amplitude"), "B", "mm", 1e3, tr("Amplitude of the base's motion.")),
         Dimension::Frequency => (tr("Frequency"), "f", "Hz", 1.0, tr("Frequency of the base's motion.")),
@@ -118,6 +118,14 @@ fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension) -> bool {
         *dimension.get_mut(device) = value / factor;
     }
     changed
+}
+
+/// The slider for one dimension where there is nothing else of the device.
+pub(super) fn alone(context: &mut Context<'_>, ui: &mut Ui, dimension: Dimension) {
+    let Some(mut device) = device_of(context, ui) else { return };
+    if slider(ui, &mut device, dimension) {
+        adopt(context, device, context.view.scenario.scaling);
+    }
 }
 
 /// Without the last digits, which are what is left of the factor.

@@ -3,7 +3,7 @@
 use egui::{Ui, vec2};
 
 use super::{
-    Context, basins, chart, curves, evidence, multipliers, orbit_diagram, phase_portrait, poincare_map,
+    Context, basins, chart, curves, evidence, live, multipliers, orbit_diagram, phase_portrait, poincare_map,
     response, spectrum, stability_map, time_history, verdict,
 };
 use crate::app::view::Panel;
@@ -11,10 +11,10 @@ use crate::app::view::Panel;
 /// Space between cards.
 pub(super) const GAP: f32 = 10.0;
 /// Least height of a plot's card, and where it stands alone in its row: its choices then take several rows.
-const LEAST_HEIGHT: f32 = 270.0;
-const LEAST_HEIGHT_ALONE: f32 = 350.0;
+pub(super) const LEAST_HEIGHT: f32 = 270.0;
+pub(super) const LEAST_HEIGHT_ALONE: f32 = 350.0;
 /// Width from which two cards stand side by side.
-const TWO_COLUMNS: f32 = 640.0;
+pub(super) const TWO_COLUMNS: f32 = 640.0;
 
 /// The plots.
 pub(in crate::app) const PANELS: [Panel; 4] =
@@ -66,7 +66,8 @@ pub(super) fn place(ui: &mut Ui, width: f32, height: f32, draw: &mut dyn FnMut(&
     });
 }
 
-fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
+/// One of the plots that stand in such grids.
+pub(super) fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
     match panel {
         Panel::StabilityMap => stability_map::show(context, ui),
         Panel::PhasePortrait => phase_portrait::show(context, ui),
@@ -82,5 +83,8 @@ fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
         Panel::Basins => basins::show(context, ui),
         // These have pages of their own on the Design tab.
         Panel::Harvest | Panel::Load | Panel::DesignMap | Panel::Measured => {}
+        Panel::Oscilloscope => live::scope::show(context, ui),
+        Panel::LivePortrait => live::portrait::show(context, ui),
+        Panel::LiveBeam => live::beam::show(context, ui),
     }
 }

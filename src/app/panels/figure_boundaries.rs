@@ -23,10 +23,11 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigu
         let tongues = &context.session.comparison.tongues;
         let dampings: Vec<String> = tongues.iter().map(|(alpha, _)| significant(*alpha, 1)).collect();
         ui.horizontal_wrapped(|ui| {
-            legend::legend(
-                ui,
-                &[(Series::Published, tr("as printed")), (Series::Coupled, tr("coupled modes"))],
-            );
+            let thin = [
+                (Series::Published, tr("as printed (thin)")),
+                (Series::Coupled, tr("coupled modes (thick)")),
+            ];
+            legend::legend(ui, &thin);
             let text = format!("α = {}", dampings.join(", "));
             ui.label(egui::RichText::new(text).small().color(theme::tokens(ui).text_weak));
         });
@@ -54,7 +55,9 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigu
                             if kind == Series::Coupled { tr("coupled modes") } else { tr("as printed") };
                         let name = format!("α = {alpha}, {whose}");
                         for pen in pens(index) {
-                            plot_style::curve(plot, &name, kind.colour(tokens), *pen, curve);
+                            // The style is the paper's and tells the dampings apart, the weight the theories.
+                            let pen = if kind == Series::Coupled { heavy(*pen) } else { *pen };
+                            plot_style::curve(plot, &name, kind.colour(tokens), pen, curve);
                         }
                     }
                 }
@@ -69,6 +72,16 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigu
             });
     });
     context.export(title, shown.export);
+}
+
+/// The same pen with twice the weight.
+const fn heavy(pen: Pen) -> Pen {
+    match pen {
+        Pen::Line(width) => Pen::Line(2.0 * width),
+        Pen::Dashes(width, length) => Pen::Dashes(2.0 * width, length),
+        Pen::Dots(radius, spacing) => Pen::Dots(2.0 * radius, spacing),
+        mark => mark,
+    }
 }
 
 /// The line style that the paper gives the damping with this index.

@@ -7,11 +7,13 @@ pub(super) mod controls;
 pub(super) mod curves;
 pub(super) mod design;
 pub(super) mod device;
+pub(super) mod embedded;
 pub(super) mod evidence;
 pub(super) mod explore;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
 pub(super) mod lessons;
+pub(super) mod live;
 pub(super) mod multipliers;
 pub(super) mod orbit_diagram;
 pub(super) mod paper;
@@ -34,9 +36,11 @@ pub(super) mod verdict;
 use super::bench::Bench;
 use super::command::{Command, Commands};
 use super::crew::Studies;
+use super::embed::Embed;
 use super::lessons::Course;
+use super::live::Live;
 use super::session::{Session, Shown, Status};
-use super::view::{Panel, View};
+use super::view::{Panel, Tab, View};
 use super::widgets::{Card, Icon};
 use crate::app::text::{fill, tr};
 use crate::export::Format;
@@ -48,8 +52,11 @@ pub(super) struct Context<'a> {
     pub studies: &'a Studies,
     pub bench: &'a Bench,
     pub course: &'a Course,
+    pub live: &'a Live,
     /// The page's own address, without a fragment.
     pub address: &'a str,
+    /// What the address asks to be shown of the page; all of it when absent.
+    pub embed: Option<&'a Embed>,
     /// Whether there is a step to take back, and one to take again.
     pub steps: (bool, bool),
     pub commands: &'a mut Commands,
@@ -100,11 +107,11 @@ impl<'a> Context<'a> {
         let (icon, label) =
             if large { (Icon::Shrink, tr("Show all plots")) } else { (Icon::Enlarge, tr("Enlarge")) };
         let card = Card::new(title).hint(hint);
-        // The evidence is text.
-        let card = if panel == Panel::Evidence { card } else { card.exports() };
+        // The evidence is text, the beam a picture.
+        let card = if matches!(panel, Panel::Evidence | Panel::LiveBeam) { card } else { card.exports() };
         let card = card.button(icon, label);
         let shown = card.show(ui, |ui| {
-            if self.is_stale() {
+            if self.is_stale() && self.view.tab != Tab::Live {
                 ui.multiply_opacity(0.55);
             }
             contents(self, ui);

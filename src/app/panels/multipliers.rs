@@ -33,7 +33,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let reached = reached.filter(|reached| !same(reached, found.forced.as_ref()));
     let name = reached.map(|reached| fill("period {periods} reached", &[("periods", &reached.periods)]));
     let mut entries = vec![(Series::Forced, tr("forced motion"))];
-    entries.extend(name.as_deref().map(|name| (Series::Up, name)));
+    entries.extend(name.as_deref().map(|name| (Series::Reached, name)));
     legend::legend(ui, &entries);
     if let Some(forced) = &found.forced {
         ui.label(egui::RichText::new(in_words(forced)).small().color(theme::tokens(ui).text_weak));
@@ -57,7 +57,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
             plot.set_plot_bounds(PlotBounds::from_min_max([-reach, -reach], [reach, reach]));
             plot_style::series(plot, Series::Ghost, tr("unit circle"), &circle);
             plot_style::points(plot, Series::Forced, tr("forced motion"), &forced);
-            plot_style::points(plot, Series::Up, tr("motion reached"), &reached);
+            plot_style::points(plot, Series::Reached, tr("motion reached"), &reached);
         },
     );
 }

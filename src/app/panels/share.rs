@@ -4,6 +4,7 @@ use egui::{Color32, Id, Modal, Popup, PopupCloseBehavior, RichText, TextEdit, Ui
 
 use super::Context;
 use crate::app::command::Command;
+use crate::app::embed::{self, PARTS};
 use crate::app::exporting::request;
 use crate::app::text::{fill, tr};
 use crate::app::view::View;
@@ -26,6 +27,11 @@ struct Memory {
     large: bool,
     /// When the link was copied, by egui's clock.
     copied: Option<f64>,
+    /// The parts to embed, one a bit, when that is being chosen, and when its text was copied.
+    parts: Option<u32>,
+    embedded: Option<f64>,
+    /// Whether it has no sliders.
+    bare: bool,
     /// Which program was copied when.
     program: Option<(&'static str, f64)>,
 }
@@ -84,17 +90,31 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
         if ui.button(tr("Large code")).clicked() {
             enlarge(ui, memory);
         }
+        let embedding = memory.parts.is_some();
+        let button = ui.add(egui::Button::new(tr("Embed")).selected(embedding));
+        if button.on_hover_text(tr("Show plots of this view in slides or on a page of your own")).clicked() {
+            let usual = || embed::usual(context.view).iter().fold(0, |bits, part| bits | 1 << part);
+            memory.parts = (!embedding).then(usual);
+        }
     });
     ui.checkbox(&mut memory.looks, tr("with my theme and size of type"));
     ui.add_space(2.0);
-    let width = ui.available_width();
-    ui.vertical_centered(|ui| match qr_code(ui, link, CODE.min(width), tr("QR code of the link: enlarge")) {
-        Some(code) if code.clicked() => enlarge(ui, memory),
-        Some(_) => {}
-        None => {
-            ui.label(RichText::new(tr("This link is too long for a QR code.")).color(tokens.text_weak));
-        }
-    });
+    if let Some(parts) = memory.parts {
+        choose_parts(context, ui, memory, parts, link);
+    } else {
+        let width = ui.available_width();
+        ui.vertical_centered(|ui| {
+            match qr_code(ui, link, CODE.min(width), tr("QR code of the link: enlarge")) {
+                Some(code) if code.clicked() => enlarge(ui, memory),
+                Some(_) => {}
+                None => {
+                    ui.label(
+                        RichText::new(tr("This link is too long for a QR code.")).color(tokens.text_weak),
+                    );
+                }
+            }
+        });
+    }
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         if ui.button(tr("Save file")).clicked() {
@@ -113,6 +133,31 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
     ui.label(
         RichText::new(tr("or drop a scenario or measured data on the page")).small().color(tokens.text_weak),
     );
+}
+
+/// What of this view a frame is to show, and the button that copies it.
+fn choose_parts(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory, mut parts: u32, link: &str) {
+    ui.columns(2, |columns| {
+        for (i, (_, _, name)) in PARTS.iter().enumerate() {
+            let mut chosen = parts >> i & 1 == 1;
+            if columns[i * 2 / PARTS.len()].checkbox(&mut chosen, tr(name)).changed() {
+                parts ^= 1 << i;
+            }
+        }
+    });
+    memory.parts = Some(parts);
+    ui.checkbox(&mut memory.bare, tr("without sliders"));
+    let now = ui.input(|input| input.time);
+    let copied = memory.embedded.is_some_and(|then| now - then < COPIED);
+    let button = egui::Button::new(if copied { tr("Copied") } else { tr("Copy the frame as HTML") });
+    if ui.add_enabled(parts != 0, button).clicked() {
+        let chosen: Vec<usize> = (0..PARTS.len()).filter(|i| parts >> i & 1 == 1).collect();
+        let controls: &[&str] = if memory.bare { &[] } else { &["alpha", "beta", "omega"] };
+        let fragment = link.split_once('#').map_or("", |(_, fragment)| fragment);
+        ui.ctx().copy_text(embed::snippet(context.address, fragment, &chosen, controls));
+        ui.ctx().request_repaint_after_secs(COPIED as f32 + 0.1);
+        memory.embedded = Some(now);
+    }
 }
 
 /// Buttons that copy the question of the tab in view as a program.

@@ -10,7 +10,7 @@ use crate::app::{fonts, theme};
 const WIDTH: f32 = 420.0;
 
 /// Keys and what they do.
-const KEYS: [(&str, &str); 17] = [
+const KEYS: [(&str, &str); 20] = [
     (marked("1 2 3 …"), marked("open a tab")),
     (marked("Tab, Shift+Tab"), marked("go to the next or last control")),
     (marked("Enter, Space"), marked("press it")),
@@ -23,6 +23,9 @@ const KEYS: [(&str, &str); 17] = [
     (marked("Escape"), marked("show all plots; close; leave a field")),
     (marked("P"), marked("pin the curves, or drop them")),
     (marked("B"), marked("let the beam move, or hold it")),
+    (marked("Space"), marked("on Live: run or pause")),
+    (marked(". ,"), marked("on Live: go on for a period, for a frame")),
+    (marked("K J R C S"), marked("on Live: kick up, down; from rest; clear; sound")),
     (marked("D, L"), marked("dark or light; large type")),
     (marked("Ctrl+Z, Ctrl+Shift+Z"), marked("undo; redo")),
     (marked("Ctrl+S, Ctrl+O"), marked("save or open a file")),

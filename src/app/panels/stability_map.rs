@@ -14,6 +14,9 @@ use crate::jobs::study::tongues::Traced;
 use crate::model::Parameter;
 use crate::theory::Resonance;
 
+/// Room that the legend needs to stand beside the choice.
+const LEGEND: f32 = 300.0;
+
 /// Draws the map's card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let title = match context.view.map.resonance() {
@@ -38,6 +41,9 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         choose_window(context, ui);
         ui.add_space(6.0);
+        if ui.available_size_before_wrap().x < LEGEND {
+            ui.end_row();
+        }
         legend::legend(
             ui,
             &[

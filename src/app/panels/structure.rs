@@ -3,7 +3,7 @@
 use egui::Ui;
 
 use super::Context;
-use super::controls::short;
+use super::controls::{FREQUENCIES, short};
 use crate::app::text::{fill, tr};
 use crate::app::widgets::{Fold, ParameterSlider, chips};
 use crate::model::{ForceLaw, MAX_MODES, Parameter, ParameterSet, state_dimension};
@@ -46,7 +46,7 @@ pub(super) fn model_and_start(ui: &mut Ui, changed: &mut Scenario) {
 }
 
 /// One compact slider; its range, scale and words.
-fn number(ui: &mut Ui, set: &mut ParameterSet, parameter: Parameter) {
+pub(super) fn number(ui: &mut Ui, set: &mut ParameterSet, parameter: Parameter) {
     let (name, symbol, tooltip, floor) = match parameter {
         Parameter::C0 => (
             tr("Strength"),
@@ -74,10 +74,17 @@ fn number(ui: &mut Ui, set: &mut ParameterSet, parameter: Parameter) {
         Parameter::Theta => {
             (tr("Coupling"), "θ", tr("Electromechanical coupling: bending moment of one volt."), Some(1e-6))
         }
-        Parameter::Alpha | Parameter::Beta | Parameter::Omega => return,
+        // These have a place of their own with more room; here they stand in embedded pages.
+        Parameter::Alpha => {
+            (tr("Damping"), "α", tr("Kelvin-Voigt damping of the beam's material."), Some(1e-6))
+        }
+        Parameter::Beta => {
+            (tr("Excitation"), "β", tr("Amplitude of the base's motion, in beam lengths."), Some(1e-5))
+        }
+        Parameter::Omega => (tr("Frequency"), "ω", tr("Angular frequency of the base's motion."), None),
     };
     let default = parameter.get(&ParameterSet::default());
-    let (low, high) = parameter.range();
+    let (low, high) = if parameter == Parameter::Omega { FREQUENCIES } else { parameter.range() };
     let value = parameter.get_mut(set);
     let slider = ParameterSlider::new(name, symbol, value, low..=high)
         .default_value(default)
@@ -110,15 +117,26 @@ fn model_in_words(scenario: &Scenario) -> String {
 }
 
 fn model(ui: &mut Ui, scenario: &mut Scenario) {
+    ui.label(tr("Modes kept in the truncation, Eq. 30"));
+    modes(ui, scenario);
+    ui.add_space(4.0);
+    ui.label(tr("Magnet force beyond its linear part, Eq. 16"));
+    force(ui, scenario);
+    ui.add_space(6.0);
+}
+
+/// The choice of the number of modes.
+pub(super) fn modes(ui: &mut Ui, scenario: &mut Scenario) {
     let numbers: Vec<String> = (1..=MAX_MODES).map(|n| n.to_string()).collect();
     let choices: Vec<(usize, &str)> = (1..=MAX_MODES).zip(numbers.iter().map(String::as_str)).collect();
     let mut modes = scenario.model.modes;
-    ui.label(tr("Modes kept in the truncation, Eq. 30"));
     if chips(ui, tr("Modes"), &mut modes, &choices) {
         scenario.set_modes(modes);
     }
-    ui.add_space(4.0);
-    ui.label(tr("Magnet force beyond its linear part, Eq. 16"));
+}
+
+/// The choice of the force law.
+pub(super) fn force(ui: &mut Ui, scenario: &mut Scenario) {
     let degree = match scenario.model.force {
         ForceLaw::Taylor(degree) => degree,
         _ => FIRST_DEGREE,
@@ -135,7 +153,6 @@ fn model(ui: &mut Ui, scenario: &mut Scenario) {
         slider.tooltip(tr("Highest power of the tip displacement that is kept.")).compact().show(ui);
         *degree = (value.round() as usize).clamp(2, ForceLaw::MAX_DEGREE);
     }
-    ui.add_space(6.0);
 }
 
 fn start_in_words(scenario: &Scenario) -> String {

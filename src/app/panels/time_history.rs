@@ -95,7 +95,7 @@ fn dense_curve(shown: &Shown, from: f64, to: f64) -> Vec<PlotPoint> {
 /// The last periods, with the theory's dots, in a corner.
 fn close_view(ui: &mut Ui, rect: Rect, shown: &Shown) {
     let tokens = theme::tokens(ui);
-    ui.painter().rect_filled(rect, theme::radius::CONTROL, tokens.inset);
+    ui.painter().rect(rect, theme::radius::CONTROL, tokens.inset, tokens.edge(), egui::StrokeKind::Inside);
     let mut inner =
         ui.new_child(UiBuilder::new().max_rect(rect.shrink2(vec2(6.0, 4.0))).id_salt("close view"));
     let (x, y) = (Axis::new("", ""), Axis::new("", ""));

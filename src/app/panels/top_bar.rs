@@ -77,11 +77,7 @@ fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str
 
 fn switches(context: &mut Context<'_>, ui: &mut Ui) {
     languages(context, ui);
-    let dark = theme::tokens(ui).dark;
-    let (icon, label) = if dark { (Icon::Sun, tr("Light theme")) } else { (Icon::Moon, tr("Dark theme")) };
-    if icon_button(ui, icon, label).clicked() {
-        context.commands.push(Command::SetDark(!dark));
-    }
+    choose_theme(context, ui);
     let large = context.view.projector;
     let label = if large { tr("Normal type") } else { tr("Large type for a projector") };
     if icon_button(ui, if large { Icon::Shrink } else { Icon::Enlarge }, label).clicked() {
@@ -98,14 +94,38 @@ fn switches(context: &mut Context<'_>, ui: &mut Ui) {
     }
 }
 
+/// The menu of themes: the choice, or the system's, and high contrast with either.
+fn choose_theme(context: &mut Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let button = icon_button(ui, if tokens.dark { Icon::Moon } else { Icon::Sun }, tr("Theme"));
+    let popup = Popup::menu(&button).accessible_name(tr("Theme"));
+    let commands = &mut *context.commands;
+    let view = context.view;
+    popup.show(|ui| {
+        let system = view.dark.is_none() && view.contrast.is_none();
+        if ui.radio(system, tr("System")).clicked() {
+            commands.push(Command::FollowSystem);
+        }
+        for (dark, name) in [(false, tr("Light")), (true, tr("Dark"))] {
+            if ui.radio(view.dark == Some(dark), name).clicked() {
+                commands.push(Command::SetDark(dark));
+            }
+        }
+        ui.separator();
+        let mut contrast = tokens.contrast;
+        if ui.checkbox(&mut contrast, tr("High contrast")).clicked() {
+            commands.push(Command::SetContrast(contrast));
+        }
+    });
+}
+
 /// The languages, each by its own name.
 fn languages(context: &mut Context<'_>, ui: &mut Ui) {
     let button = icon_button(ui, Icon::Globe, tr("Language"));
-    let popup = Popup::from_toggle_button_response(&button).accessible_name(tr("Language"));
+    let popup = Popup::menu(&button).accessible_name(tr("Language"));
     popup.show(|ui| {
         for language in Language::ALL {
-            let spoken = language == text::language();
-            if ui.selectable_label(spoken, language.own_name()).clicked() {
+            if ui.radio(language == text::language(), language.own_name()).clicked() {
                 context.commands.push(Command::Speak(language));
             }
         }

@@ -34,6 +34,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let broken = broken(context, shown);
     let frame = egui::Frame::new()
         .fill(tokens.card)
+        .stroke(tokens.edge())
         .corner_radius(theme::radius::CARD)
         .inner_margin(egui::Margin { left: 16, right: 12, top: 8, bottom: 9 });
     let drawn = frame.show(ui, |ui| {

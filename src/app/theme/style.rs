@@ -77,7 +77,8 @@ fn visuals(tokens: &Tokens) -> Visuals {
 
 fn widgets(tokens: &Tokens) -> Widgets {
     let look = |fill: Color32, text: Color32, outline: Color32| WidgetVisuals {
-        bg_fill: fill,
+        // That of boxes to tick; buttons have the other one.
+        bg_fill: if tokens.contrast { tokens.track } else { fill },
         weak_bg_fill: fill,
         bg_stroke: Stroke::new(1.0, outline),
         corner_radius: CornerRadius::same(radius::CONTROL),
@@ -86,9 +87,9 @@ fn widgets(tokens: &Tokens) -> Widgets {
     };
     Widgets {
         noninteractive: look(tokens.card, tokens.text, tokens.outline),
-        inactive: look(tokens.field, tokens.text, Color32::TRANSPARENT),
-        hovered: look(tokens.hover, tokens.text_strong, Color32::TRANSPARENT),
+        inactive: look(tokens.field, tokens.text, tokens.edge().color),
+        hovered: look(tokens.hover, tokens.text_strong, tokens.edge().color),
         active: look(tokens.hover, tokens.text_strong, tokens.accent),
-        open: look(tokens.hover, tokens.text_strong, Color32::TRANSPARENT),
+        open: look(tokens.hover, tokens.text_strong, tokens.edge().color),
     }
 }

@@ -44,7 +44,8 @@ fn pill(ui: &mut Ui, kind: BadgeKind, shown: &str, text: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(width, 21.0), Sense::hover());
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Status, enabled, text));
-    ui.painter().rect_filled(rect, 10, tokens.tint(colour));
+    let edge = egui::Stroke::new(1.0, if tokens.contrast { colour } else { egui::Color32::TRANSPARENT });
+    ui.painter().rect(rect, 10, tokens.tint(colour), edge, egui::StrokeKind::Inside);
     let sign = pos2(rect.left() + 12.0, rect.center().y);
     let stroke = egui::Stroke::new(1.6, colour);
     match kind {

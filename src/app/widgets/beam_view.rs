@@ -106,7 +106,10 @@ impl<'a> BeamView<'a> {
             finite.map(|p| view.at(p[0], p[1] + base)).collect()
         };
         for extreme in self.extremes {
-            painter.add(Shape::line(curve(extreme), Stroke::new(1.5, tokens.numeric.gamma_multiply(0.3))));
+            painter.add(Shape::line(
+                curve(extreme),
+                Stroke::new(1.5, tokens.numeric.gamma_multiply(if tokens.contrast { 0.8 } else { 0.3 })),
+            ));
         }
         let beam = curve(self.shape);
         let tip = beam.last().copied().unwrap_or(rest[1]);
@@ -174,7 +177,7 @@ struct View {
 impl View {
     fn fit(rect: Rect, beam: &BeamView<'_>) -> Self {
         let left = rect.left() + 22.0;
-        let scale = f64::from((rect.right() - 58.0 - left).max(30.0));
+        let scale = f64::from((rect.right() - 66.0 - left).max(30.0));
         let magnet = (MAGNET * scale).clamp(8.0, 16.0) as f32;
         let heights =
             beam.extremes.iter().flat_map(|shape| shape.iter()).chain(beam.shape).map(|p| p[1] + beam.base);

@@ -117,8 +117,7 @@ impl<'a> Card<'a> {
             rect.max.y = child.min_rect().bottom() + MARGIN;
         }
         let tokens = theme::tokens(ui);
-        let outline =
-            egui::Stroke::new(1.0, if tokens.dark { egui::Color32::TRANSPARENT } else { tokens.outline });
+        let outline = if tokens.dark { tokens.edge() } else { egui::Stroke::new(1.0, tokens.outline) };
         let shape = egui::epaint::RectShape::new(
             rect,
             theme::radius::CARD,

@@ -65,7 +65,7 @@ impl<'a> Fold<'a> {
             state.toggle(ui);
         }
         let fill = if response.hovered() { tokens.hover } else { tokens.field };
-        ui.painter().rect_filled(rect, theme::radius::CONTROL, fill);
+        ui.painter().rect(rect, theme::radius::CONTROL, fill, tokens.edge(), egui::StrokeKind::Inside);
         icon::focus_ring(ui, rect, &response);
         let chevron = if state.is_open() { Icon::ChevronDown } else { Icon::ChevronRight };
         let place = Rect::from_center_size(pos2(rect.left() + 16.0, rect.center().y), Vec2::splat(12.0));

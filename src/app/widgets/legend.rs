@@ -23,7 +23,7 @@ pub enum Series {
     Exact,
     /// Poincaré points.
     Poincare,
-    /// Boundary of a torus: dashes.
+    /// Boundary of a torus: long dashes.
     Torus,
     /// Curve of folds: fine dots.
     Fold,
@@ -31,6 +31,12 @@ pub enum Series {
     TheoryPoint,
     /// Multipliers of the forced motion: large discs.
     Forced,
+    /// Multipliers of the motion reached: large rings.
+    Reached,
+    /// Motions from rest: diamonds.
+    FromRest,
+    /// The best that there is: very long dashes.
+    Best,
     /// Reached by a sweep upwards: small discs.
     Up,
     /// Reached by a sweep downwards: small rings.
@@ -41,13 +47,13 @@ pub enum Series {
     Unstable,
     /// The device without its magnets: long grey dashes.
     Linear,
-    /// What is measured: small discs.
+    /// What is measured: small squares.
     Measured,
     /// A limit: a solid line.
     Limit,
-    /// Beyond a limit: rings.
+    /// Beyond a limit: crosses.
     Beyond,
-    /// Pinned for comparison: a thin grey line.
+    /// Pinned for comparison: a thin grey line, or crosses.
     Ghost,
 }
 
@@ -63,7 +69,9 @@ impl Series {
             Self::Poincare => tokens.poincare,
             Self::Torus => tokens.poincare,
             Self::Fold => tokens.warning,
-            Self::Forced => tokens.exact,
+            Self::Forced | Self::Best => tokens.exact,
+            Self::Reached => tokens.numeric,
+            Self::FromRest => tokens.poincare,
             Self::Up => tokens.numeric,
             Self::Down => tokens.warning,
             Self::Stable | Self::Unstable => tokens.ok,
@@ -83,19 +91,33 @@ impl Series {
             Self::Coupled => Pen::Dashes(1.8, 9.0),
             Self::Exact => Pen::Line(3.0),
             Self::Poincare => Pen::Points(3.5),
-            Self::Torus => Pen::Line(2.2),
-            Self::Fold => Pen::Dashes(2.0, 12.0),
+            Self::Torus => Pen::Dashes(2.2, 14.0),
+            Self::Fold => Pen::Dots(1.8, 7.0),
             Self::TheoryPoint => Pen::Rings(6.0),
             Self::Forced => Pen::Points(4.5),
+            Self::Reached => Pen::Rings(6.5),
+            Self::FromRest => Pen::Diamonds(4.0),
+            Self::Best => Pen::Dashes(2.4, 20.0),
             Self::Up => Pen::Points(2.6),
             Self::Down => Pen::Rings(3.2),
             Self::Stable => Pen::Line(2.4),
             Self::Unstable => Pen::Dashes(1.5, 5.0),
             Self::Linear => Pen::Dashes(1.8, 10.0),
-            Self::Measured => Pen::Points(2.0),
+            Self::Measured => Pen::Squares(2.0),
             Self::Limit => Pen::Line(1.6),
-            Self::Beyond => Pen::Rings(5.0),
+            Self::Beyond => Pen::Crosses(4.5),
             Self::Ghost => Pen::Line(1.0),
+        }
+    }
+}
+
+impl Series {
+    /// The mark where single points are drawn.
+    pub fn mark(self) -> Pen {
+        match self.pen() {
+            _ if self == Self::Ghost => Pen::Crosses(3.0),
+            Pen::Line(_) | Pen::Dashes(..) | Pen::Dots(..) => Pen::Points(2.6),
+            mark => mark,
         }
     }
 }
@@ -116,7 +138,8 @@ pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
             ui.painter().line_segment([left, right], Stroke::new(width, colour));
         }
         Pen::Dashes(width, length) => {
-            let gap = 0.6 * length;
+            // Long ones are cut, so that they end within the sample.
+            let (length, gap) = (length.min(13.0), (0.6 * length).min(4.0));
             ui.painter().extend(Shape::dashed_line(&[left, right], Stroke::new(width, colour), length, gap));
         }
         Pen::Dots(radius, _) => {
@@ -125,16 +148,41 @@ pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
                 ui.painter().circle_filled(at, radius, colour);
             }
         }
-        Pen::Points(radius) => {
-            ui.painter().circle_filled(left.lerp(right, 0.5), radius, colour);
-        }
-        Pen::Rings(radius) => {
-            ui.painter().circle_stroke(left.lerp(right, 0.5), radius, Stroke::new(1.2, colour));
-        }
+        pen => paint_mark(ui, left.lerp(right, 0.5), pen, colour),
     }
     let at = pos2(rect.left() + 27.0, rect.center().y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.text_weak);
     response
+}
+
+/// A mark as plots draw it.
+fn paint_mark(ui: &Ui, at: egui::Pos2, pen: Pen, colour: Color32) {
+    let stroke = Stroke::new(1.2, colour);
+    let radius = pen.mark().unwrap_or_default();
+    let corner = |x: f32, y: f32| at + vec2(x, y) * radius;
+    match pen {
+        Pen::Rings(_) => {
+            ui.painter().circle_stroke(at, radius, stroke);
+        }
+        Pen::Crosses(_) => {
+            ui.painter().line_segment([corner(-0.8, -0.8), corner(0.8, 0.8)], stroke);
+            ui.painter().line_segment([corner(-0.8, 0.8), corner(0.8, -0.8)], stroke);
+        }
+        Pen::Diamonds(_) => {
+            let corners = vec![corner(0.0, -1.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(-1.0, 0.0)];
+            ui.painter().add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+        }
+        Pen::Squares(_) => {
+            ui.painter().rect_filled(
+                egui::Rect::from_center_size(at, egui::Vec2::splat(2.0 * radius)),
+                0,
+                colour,
+            );
+        }
+        _ => {
+            ui.painter().circle_filled(at, radius, colour);
+        }
+    }
 }
 
 /// A row of samples; it breaks where it is too narrow.

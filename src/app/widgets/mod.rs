@@ -14,6 +14,7 @@ pub mod recorder;
 pub mod swatch;
 pub mod tabs;
 pub mod tile;
+pub mod touch;
 
 #[cfg(test)]
 pub(super) mod harness;

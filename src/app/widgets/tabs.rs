@@ -69,7 +69,10 @@ pub fn chips<T: PartialEq + Copy>(ui: &mut Ui, name: &str, selected: &mut T, cho
         }
     });
     let used = row.response.rect;
-    ui.painter().set(background, egui::epaint::RectShape::filled(used, theme::radius::CONTROL, tokens.field));
+    let corners = theme::radius::CONTROL;
+    let inside = egui::StrokeKind::Inside;
+    let shape = egui::epaint::RectShape::new(used, corners, tokens.field, tokens.edge(), inside);
+    ui.painter().set(background, shape);
     *selected != before
 }
 
@@ -93,7 +96,8 @@ fn paint(
     active: bool,
 ) {
     let tokens = theme::tokens(ui);
-    ui.painter().rect_filled(rect, CornerRadius::same(corner), fill);
+    let edge = if active { tokens.edge() } else { egui::Stroke::NONE };
+    ui.painter().rect(rect, CornerRadius::same(corner), fill, edge, egui::StrokeKind::Inside);
     icon::focus_ring(ui, rect, response);
     let colour = match (active, fill == tokens.accent) {
         (true, true) => tokens.on_accent,

@@ -109,8 +109,16 @@ impl Browser for Chromium {
     fn resize(&self, width: u32, height: u32, theme: Theme) {
         let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.devtools("Emulation.setDeviceMetricsOverride", &metrics);
-        let value = if theme == Theme::Dark { "dark" } else { "light" };
-        let media = json!({ "features": [{ "name": "prefers-color-scheme", "value": value }] });
+        let (scheme, contrast) = match theme {
+            Theme::Dark => ("dark", "no-preference"),
+            Theme::Light => ("light", "no-preference"),
+            Theme::DarkContrast => ("dark", "more"),
+            Theme::LightContrast => ("light", "more"),
+        };
+        let media = json!({ "features": [
+            { "name": "prefers-color-scheme", "value": scheme },
+            { "name": "prefers-contrast", "value": contrast },
+        ] });
         self.devtools("Emulation.setEmulatedMedia", &media);
     }
 

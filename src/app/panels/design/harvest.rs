@@ -69,7 +69,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             (Series::Linear, tr("without magnets")),
             (Series::Stable, tr("stable")),
             (Series::Unstable, tr("unstable")),
-            (Series::Poincare, tr("from rest")),
+            (Series::FromRest, tr("from rest")),
             (Series::Up, tr("swept up")),
             (Series::Down, tr("swept down")),
             (Series::Beyond, tr("beyond a limit")),
@@ -176,7 +176,7 @@ fn curves(study: &HarvestStudy) -> Vec<(Series, String, Vec<HarvestPoint>)> {
         }
     }
     let from_rest = study.from_rest().iter().filter_map(|start| start.flatten()).map(|(_, point)| point);
-    curves.push((Series::Poincare, tr("from rest").to_owned(), from_rest.collect()));
+    curves.push((Series::FromRest, tr("from rest").to_owned(), from_rest.collect()));
     curves.push((Series::Down, tr("swept down").to_owned(), lasting(study.swept(Direction::Down))));
     curves.push((Series::Up, tr("swept up").to_owned(), lasting(study.swept(Direction::Up))));
     curves
@@ -211,7 +211,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
     let measured = super::measured::over_frequency(context, watched, &measure);
     let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.harvest.as_ref());
     for (kind, _, points) in kept.map_or_else(Vec::new, self::curves) {
-        if matches!(kind, Series::Stable | Series::Poincare) {
+        if matches!(kind, Series::Stable | Series::FromRest) {
             drawn.push((Series::Ghost, tr("pinned"), measure.line(&points, 0)));
         }
     }

@@ -61,7 +61,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             (Series::Unstable, tr("unstable")),
             (Series::Up, tr("reached")),
             (Series::Theory, tr("best frequency, without magnets")),
-            (Series::Exact, tr("best frequency, stable motions")),
+            (Series::Best, tr("best frequency, stable motions")),
             (Series::Beyond, tr("beyond a limit")),
         ],
     );
@@ -106,7 +106,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
     let linear = best.iter().map(|best| at(best.resistance, best.linear[1])).collect();
     drawn.push((Series::Theory, tr("without magnets, best frequency"), linear));
     let stable = best.iter().filter_map(|best| best.nonlinear.map(|[_, power]| at(best.resistance, power)));
-    drawn.push((Series::Exact, tr("stable motions, best frequency"), stable.collect()));
+    drawn.push((Series::Best, tr("stable motions, best frequency"), stable.collect()));
     drawn.push((Series::Up, tr("reached"), reached.iter().map(place).collect()));
     let safety = Safety::of(view, context.session);
     let demand = |point: &LoadPoint| (point.v_peak, point.tip);

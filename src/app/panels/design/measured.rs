@@ -64,7 +64,7 @@ fn over_time(context: &Context<'_>, ui: &mut Ui, file: &File) {
     plot_style::plot(ui, ("measured", file.name.as_str(), 0), &x, &y).show(ui, |plot| {
         plot_style::series(plot, Series::Numeric, tr("computed"), &curve);
         let colour = theme::tokens_in(plot.ctx()).theory;
-        plot_style::curve(plot, tr("measured"), colour, Pen::Line(1.2), &file.drawn);
+        plot_style::curve(plot, tr("measured"), colour, Pen::Dashes(1.4, 5.0), &file.drawn);
     });
 }
 
@@ -76,7 +76,7 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
             (Series::Measured, tr("measured")),
             (Series::Linear, tr("without magnets")),
             (Series::Stable, tr("stable")),
-            (Series::Up, tr("from rest")),
+            (Series::FromRest, tr("from rest")),
         ],
     );
     let (x, y) =
@@ -101,7 +101,7 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
         for run in &stable {
             plot_style::series(plot, Series::Stable, tr("stable"), run);
         }
-        plot_style::points(plot, Series::Up, tr("from rest"), &reached);
+        plot_style::points(plot, Series::FromRest, tr("from rest"), &reached);
         plot_style::points(plot, Series::Measured, tr("measured"), &file.drawn);
     });
 }

@@ -42,6 +42,14 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     }
 }
 
+/// One of its plots where there is nothing else of the tab.
+pub(in crate::app) fn plot_alone(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
+    match panel {
+        Panel::Load => load::show(context, ui),
+        _ => harvest::show(context, ui),
+    }
+}
+
 fn choose(context: &mut Context<'_>, ui: &mut Ui) {
     let pages = [
         (Page::Harvest, tr("Harvest")),

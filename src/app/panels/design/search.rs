@@ -128,7 +128,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
         Some(colour(cell, cell.violation > 0.0 && on_hatching(column, row)))
     };
     let generation = context.studies.bench.map.generation();
-    let revision = map.version() ^ (generation << 32) ^ u64::from(tokens.dark) << 63;
+    let revision = map.version() ^ (generation << 32) ^ tokens.number() << 62;
     let (columns, rows) = map.size();
     let picture = raster(ui, Id::unique("design map"), revision, (HATCH * columns, HATCH * rows), &paint);
     let variables = &map.question().variables;

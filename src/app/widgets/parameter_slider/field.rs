@@ -83,7 +83,7 @@ pub(super) fn show(
     let outline = match (&memory.error, editing) {
         (Some(_), _) => Stroke::new(1.5, tokens.danger),
         (None, true) => Stroke::new(1.5, tokens.accent),
-        (None, false) => Stroke::NONE,
+        (None, false) => tokens.edge(),
     };
     ui.painter().rect(rect, theme::radius::CONTROL, ground, outline, egui::StrokeKind::Inside);
     let edit = TextEdit::singleline(&mut text)

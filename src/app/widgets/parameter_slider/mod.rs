@@ -17,6 +17,7 @@ use crate::app::text::{fill, tr};
 use crate::app::{fonts, theme};
 
 pub use marks::Mark;
+pub use track::is_track;
 
 /// Height of the row with the name, of the track's grab area, and widths of the value field, points.
 const NAME_ROW: f32 = 26.0;

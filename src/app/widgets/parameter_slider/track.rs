@@ -8,6 +8,7 @@ use egui::{
 use super::mapping::Mapping;
 use super::marks::{self, Mark};
 use crate::app::theme;
+use crate::app::widgets::touch;
 
 /// Height of the drawn track and radius of the thumb, points.
 const TRACK: f32 = 5.0;
@@ -40,6 +41,7 @@ pub(super) fn interact(
     snaps: &[Mark],
 ) -> Outcome {
     let rail = rail(area);
+    touch::grip(ui, area);
     let response =
         ui.interact(area, id, Sense::drag()).on_hover_and_drag_cursor(egui::CursorIcon::PointingHand);
     let thumb_x = rail.left() + rail.width() * mapping.fraction(value) as f32;
@@ -83,11 +85,22 @@ fn dragged_to(ui: &Ui, response: &Response, rail: Rect, thumb_x: f32) -> Option<
     (!unmoved).then(|| f64::from((pointer.x - offset - rail.left()) / rail.width()))
 }
 
+/// Where the track that has the focus is noted.
+fn focused() -> egui::Id {
+    egui::Id::unique("track with the focus")
+}
+
+/// Whether this is the track that had the focus last: Space and Enter, which press other controls, do nothing there.
+pub fn is_track(context: &egui::Context, id: egui::Id) -> bool {
+    context.data(|data| data.get_temp(focused())) == Some(id)
+}
+
 /// The value after this frame's key presses, if there were any.
 fn keyboard(ui: &Ui, response: &Response, value: f64, mapping: &Mapping, snaps: &[Mark]) -> Option<f64> {
     if !response.has_focus() {
         return None;
     }
+    ui.data_mut(|data| data.insert_temp(focused(), response.id));
     let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     let presses: Vec<(Key, egui::Modifiers)> = ui.input(|input| {

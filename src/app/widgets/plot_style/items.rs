@@ -1,6 +1,8 @@
 //! Curves, points, bands and texts in the app's colours.
 
-use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, PlotUi, Points, Polygon, Text, VLine};
+use egui_plot::{
+    HLine, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Polygon, Text, VLine,
+};
 
 use super::super::legend::{Pen, Series};
 use super::super::recorder;
@@ -12,7 +14,7 @@ use crate::export::figure::Anchor;
 pub fn series<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [PlotPoint]) {
     let colour = kind.colour(theme::tokens_in(plot.ctx()));
     let pen = kind.pen();
-    if let Pen::Points(_) | Pen::Rings(_) = pen {
+    if pen.mark().is_some() {
         return points(plot, kind, name, curve);
     }
     record(plot, name, Some(kind), colour, pen, curve);
@@ -46,7 +48,8 @@ fn style(pen: Pen) -> (f32, LineStyle) {
     match pen {
         Pen::Dashes(width, length) => (width, LineStyle::Dashed { length }),
         Pen::Dots(radius, spacing) => (radius, LineStyle::Dotted { spacing }),
-        Pen::Line(width) | Pen::Points(width) | Pen::Rings(width) => (width, LineStyle::Solid),
+        Pen::Line(width) => (width, LineStyle::Solid),
+        mark => (mark.mark().unwrap_or_default(), LineStyle::Solid),
     }
 }
 
@@ -93,23 +96,42 @@ pub fn rule(plot: &mut PlotUi<'_>, upright: bool, name: &str, at: f64, colour: e
 
 /// Points where the data are: large when few, small when many.
 pub fn points<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, places: &'a [PlotPoint]) {
+    faded_points(plot, kind, name, places, 1.0);
+}
+
+/// The same with less of their colour, such as older ones.
+pub fn faded_points<'a>(
+    plot: &mut PlotUi<'a>,
+    kind: Series,
+    name: &str,
+    places: &'a [PlotPoint],
+    strength: f32,
+) {
     let colour = kind.colour(theme::tokens_in(plot.ctx()));
     let (radius, opacity) = match (kind, places.len()) {
-        (Series::Ghost, 0..=40) => (3.0, 0.6),
-        (Series::Ghost, _) => (1.2, 0.5),
+        (Series::Ghost, 0..=40) => (3.5, 0.8),
+        (Series::Ghost, _) => (2.0, 0.6),
         (Series::TheoryPoint, _) => (7.0, 1.0),
+        (Series::Reached, _) => (6.5, 1.0),
         (Series::Down, _) => (2.6, 0.8),
-        (Series::Beyond, _) => (4.5, 0.9),
+        (Series::Beyond, _) => (4.5, 1.0),
         (_, 0..=40) => (5.0, 1.0),
         (_, 41..=400) => (2.6, 0.9),
         _ => (1.5, 0.75),
     };
-    let filled = !matches!(kind.pen(), Pen::Rings(_));
-    let pen = if filled { Pen::Points(radius) } else { Pen::Rings(radius) };
+    let opacity = if theme::tokens_in(plot.ctx()).contrast { 1.0 } else { opacity };
+    let opacity = opacity * strength;
+    let (pen, shape) = match kind.mark() {
+        Pen::Rings(_) => (Pen::Rings(radius), MarkerShape::Circle),
+        Pen::Crosses(_) => (Pen::Crosses(radius), MarkerShape::Cross),
+        Pen::Diamonds(_) => (Pen::Diamonds(radius), MarkerShape::Diamond),
+        Pen::Squares(_) => (Pen::Squares(radius), MarkerShape::Square),
+        _ => (Pen::Points(radius), MarkerShape::Circle),
+    };
     record(plot, name, Some(kind), colour.gamma_multiply(opacity), pen, places);
     for run in finite_runs(places) {
         let dots = Points::new(name, PlotPoints::Borrowed(run)).color(colour.gamma_multiply(opacity));
-        let dots = dots.filled(filled);
+        let dots = dots.filled(!matches!(pen, Pen::Rings(_))).shape(shape);
         plot.points(dots.radius(radius).allow_hover(kind != Series::Ghost));
     }
 }
@@ -172,7 +194,11 @@ pub fn cell(plot: &mut PlotUi<'_>, from: [f64; 2], to: [f64; 2], fill: egui::Col
 /// A small text in the plot, in the colour of what it names.
 pub fn labelled_place(plot: &mut PlotUi<'_>, text: &str, place: [f64; 2], kind: Series) {
     let tokens = theme::tokens_in(plot.ctx());
-    let colour = if kind == Series::Ghost { tokens.text_weak } else { kind.colour(tokens) };
+    let colour = match kind {
+        _ if tokens.contrast => tokens.text_strong,
+        Series::Ghost => tokens.text_weak,
+        kind => kind.colour(tokens),
+    };
     label(plot, text, place, colour, Anchor::Middle);
 }
 

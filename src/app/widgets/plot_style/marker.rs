@@ -3,7 +3,7 @@
 use egui::{Align2, EventFilter, Id, Key, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use egui_plot::{PlotPoint, PlotResponse};
 
-use super::super::recorder;
+use super::super::{recorder, touch};
 use crate::app::{fonts, theme};
 use crate::export::Layer;
 
@@ -32,7 +32,9 @@ pub fn operating_point<R>(ui: &Ui, plot: &PlotResponse<R>, name: &str, position:
     // A point outside of the view waits at its edge, so that it can be fetched back.
     let shown = frame.shrink(RADIUS).clamp(centre);
     let id = plot.response.id.with("operating point");
-    let response = ui.interact(Rect::from_center_size(shown, Vec2::splat(2.0 * GRAB)), id, Sense::drag());
+    let area = Rect::from_center_size(shown, Vec2::splat(2.0 * GRAB));
+    touch::grip(ui, area);
+    let response = ui.interact(area, id, Sense::drag());
     let response = response.on_hover_and_drag_cursor(egui::CursorIcon::Grab);
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, enabled, name));

@@ -9,15 +9,18 @@ use std::ops::RangeInclusive;
 
 use egui_plot::{AxisHints, GridInput, GridMark, HoverPosition, Plot, PlotPoint};
 
-use super::{number, recorder};
+use super::{number, recorder, touch};
 use crate::app::{fonts, theme};
 
 pub use crate::export::axis::{Axis, Tick, from_log, to_log};
 pub use items::{
-    area_above, cell, curve, envelope, finite_runs, label, labelled_place, points, rule, series,
-    special_point,
+    area_above, cell, curve, envelope, faded_points, finite_runs, label, labelled_place, points, rule,
+    series, special_point,
 };
 pub use marker::{PointDrag, no_data, operating_point};
+
+/// Height below which a plot has no room for long names upright, points.
+const LOW: f32 = 190.0;
 
 /// A plot with the app's look: transparent on its card, round ticks, axis names with units, values under the
 /// pointer. Callers add bounds, links and sensitivity before they show it.
@@ -33,9 +36,12 @@ pub use marker::{PointDrag, no_data, operating_point};
 pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> Plot<'a> {
     recorder::begin(ui.ctx(), x, y);
     let tokens = theme::tokens(ui);
+    // Where the plot is lower than the name of its axis is long, the symbol has to do.
+    let low = ui.available_height() < LOW;
     let label = |axis: &Axis| {
         let font = fonts::regular(theme::size::SMALL + 0.5);
-        egui::RichText::new(axis.title()).font(font).color(tokens.text_weak)
+        let title = if low && std::ptr::eq(axis, y) { axis.short_title() } else { axis.title() };
+        egui::RichText::new(title).font(font).color(tokens.text_weak)
     };
     let hints = |hints: AxisHints<'a>, axis: &Axis, gap: f32| {
         let formatter = axis.clone();
@@ -50,7 +56,11 @@ pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> P
     let (x_readout, y_readout) = (x.clone(), y.clone());
     Plot::new(id)
         // Not for the keyboard: what is in it to be pointed at has a control of its own.
-        .sense(egui::Sense::CLICK | egui::Sense::DRAG)
+        .sense(if touch::in_use(ui.ctx()) {
+            egui::Sense::CLICK
+        } else {
+            egui::Sense::CLICK | egui::Sense::DRAG
+        })
         .custom_x_axes(vec![hints(AxisHints::new_x(), x, 26.0)])
         .custom_y_axes(vec![hints(AxisHints::new_y(), y, 13.0).min_thickness(24.0)])
         .x_grid_spacer(move |input| grid(&x_spacer, &input, 54.0))

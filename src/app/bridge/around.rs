@@ -1,0 +1,40 @@
+//! What the browser tells of the screen and of who looks at it.
+
+use wasm_bindgen::JsCast as _;
+use wasm_bindgen::prelude::Closure;
+use web_sys::MediaQueryList;
+
+/// What asks for high contrast: a setting of the system, or colours that the browser forces upon pages.
+const CONTRAST: &str = "(prefers-contrast: more), (forced-colors: active)";
+
+fn query(text: &str) -> Option<MediaQueryList> {
+    web_sys::window()?.match_media(text).ok().flatten()
+}
+
+/// Whether fingers may be what the screen is for; a mouse that moves says otherwise.
+pub(super) fn has_coarse_pointer() -> bool {
+    query("(any-pointer: coarse)").is_some_and(|query| query.matches())
+}
+
+/// Whether high contrast is wished for; looked at once a frame.
+pub(super) struct Contrast(Option<MediaQueryList>);
+
+impl Contrast {
+    /// Has a frame drawn whenever the wish changes.
+    pub(super) fn watch(context: &egui::Context) -> Self {
+        let query = query(CONTRAST);
+        if let Some(query) = &query {
+            let context = context.clone();
+            let listener = Closure::<dyn FnMut()>::new(move || context.request_repaint());
+            query.set_onchange(Some(listener.as_ref().unchecked_ref()));
+            // The page listens as long as it lives.
+            listener.forget();
+        }
+        Self(query)
+    }
+
+    /// Whether it is.
+    pub(super) fn is_wished(&self) -> bool {
+        self.0.as_ref().is_some_and(|query| query.matches())
+    }
+}

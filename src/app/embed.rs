@@ -1,0 +1,316 @@
+//! The page inside of another one: `?embed=map,phase&controls=omega` shows just these, for a frame in slides.
+
+use std::cell::Cell;
+
+use super::text::{fill, marked, tr};
+use super::view::{Panel, Tab, View};
+use crate::model::{Dimension, Parameter};
+
+/// Characters of an unknown name that are repeated, and names that are.
+const SHOWN_CHARACTERS: usize = 24;
+const SHOWN_NAMES: usize = 4;
+
+/// What can stand in an embedded page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// The bar with the verdict.
+    Verdict,
+    /// The moving beam.
+    Beam,
+    /// A plot, or what the verdict rests on.
+    Plot(Panel),
+}
+
+/// The parts with their names in addresses, and what they are called.
+pub const PARTS: [(Part, &str, &str); 16] = [
+    (Part::Verdict, "verdict", marked("Verdict")),
+    (Part::Plot(Panel::StabilityMap), "map", marked("Stability map")),
+    (Part::Plot(Panel::PhasePortrait), "phase", marked("Phase portrait")),
+    (Part::Plot(Panel::PoincareMap), "poincare", marked("Poincaré map")),
+    (Part::Plot(Panel::TimeHistory), "time", marked("Time history")),
+    (Part::Beam, "beam", marked("The beam")),
+    (Part::Plot(Panel::Chart), "chart", marked("Stability chart")),
+    (Part::Plot(Panel::Multipliers), "multipliers", marked("Multipliers")),
+    (Part::Plot(Panel::Curves), "curves", marked("Bifurcation curves")),
+    (Part::Plot(Panel::Basins), "basins", marked("Basins of attraction")),
+    (Part::Plot(Panel::Spectrum), "spectrum", marked("Spectrum")),
+    (Part::Plot(Panel::Evidence), "evidence", marked("Evidence")),
+    (Part::Plot(Panel::OrbitDiagram), "orbit", marked("Orbit diagram")),
+    (Part::Plot(Panel::Response), "response", marked("Response curves")),
+    (Part::Plot(Panel::Harvest), "harvest", marked("Over frequency")),
+    (Part::Plot(Panel::Load), "load", marked("Over the load")),
+];
+
+/// What can be changed in an embedded page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Control {
+    /// One of the ten dimensionless numbers.
+    Number(Parameter),
+    /// A dimension of the device.
+    Dimension(Dimension),
+    /// How many modes are kept.
+    Modes,
+    /// The force law.
+    Force,
+}
+
+/// What an address asks to be shown.
+#[derive(Debug)]
+pub struct Embed {
+    /// Without doubles, in the order given.
+    pub parts: Vec<Part>,
+    /// Without doubles, in the order given.
+    pub controls: Vec<Control>,
+    /// What of the address was not understood.
+    pub complaint: Option<String>,
+    /// How far the contents can be scrolled, up and down: a frame can be too low for them.
+    pub room: Cell<[f32; 2]>,
+    /// Whether the finger holds a control of the page rather than what is around it.
+    pub held: Cell<bool>,
+    /// Whether it has moved without holding one: the browser may be scrolling by it then.
+    pub swiped: Cell<bool>,
+}
+
+impl Embed {
+    /// Reads the part of an address from `?` on. `None` when it is that of the whole page.
+    #[must_use]
+    pub fn read(search: &str) -> Option<Self> {
+        let (mut parts, mut controls) = (None, Vec::new());
+        let (mut unknown_parts, mut unknown_controls) = (Vec::new(), Vec::new());
+        for (name, value) in form_urlencoded::parse(search.trim_start_matches('?').as_bytes()) {
+            let words = value.split([',', ' ']).filter(|word| !word.is_empty());
+            match &*name {
+                "embed" => {
+                    let known = |word: &str| PARTS.iter().find(|part| part.1 == word).map(|part| part.0);
+                    collect(words, &known, parts.get_or_insert_default(), &mut unknown_parts);
+                }
+                "controls" => collect(words, &control, &mut controls, &mut unknown_controls),
+                _ => {}
+            }
+        }
+        let mut parts = parts?;
+        if parts.is_empty() {
+            parts = vec![Part::Plot(Panel::StabilityMap), Part::Plot(Panel::PhasePortrait)];
+        }
+        let part_names: Vec<&str> = PARTS.iter().map(|part| part.1).collect();
+        let complaints = [
+            complaint("embed", &unknown_parts, &part_names),
+            complaint("controls", &unknown_controls, &control_names()),
+        ];
+        let complaints: Vec<String> = complaints.into_iter().flatten().collect();
+        let complaint = (!complaints.is_empty()).then(|| complaints.join(" "));
+        Some(Self {
+            parts,
+            controls,
+            complaint,
+            room: Cell::default(),
+            held: Cell::default(),
+            swiped: Cell::default(),
+        })
+    }
+
+    /// Whether this plot is shown.
+    #[must_use]
+    pub fn shows(&self, panel: Panel) -> bool {
+        self.parts.contains(&Part::Plot(panel))
+    }
+
+    /// Whether the page keeps an event for itself. Otherwise the browser scrolls what is around the frame.
+    pub fn keeps(&self, event: &egui::Event, on_grip: &dyn Fn(egui::Pos2) -> bool) -> bool {
+        let [up, down] = self.room.get();
+        match event {
+            egui::Event::MouseWheel { delta, modifiers, .. } => {
+                let scrolls = if delta.y > 0.0 { up } else { down } > 0.5 && delta.y != 0.0;
+                modifiers.ctrl || modifiers.command || scrolls
+            }
+            egui::Event::PointerButton { pos, pressed: true, .. } => {
+                self.held.set(up + down > 0.5 || on_grip(*pos));
+                self.swiped.set(false);
+                self.held.get()
+            }
+            egui::Event::PointerMoved(_) => {
+                self.swiped.set(!self.held.get());
+                self.held.get()
+            }
+            // Otherwise a tap would be told once more as that of a mouse.
+            egui::Event::PointerButton { .. } => !self.swiped.get(),
+            _ => true,
+        }
+    }
+}
+
+fn collect<'a, T: PartialEq>(
+    words: impl Iterator<Item = &'a str>,
+    known: &dyn Fn(&str) -> Option<T>,
+    found: &mut Vec<T>,
+    unknown: &mut Vec<String>,
+) {
+    for word in words {
+        match known(word) {
+            Some(thing) if !found.contains(&thing) => found.push(thing),
+            Some(_) => {}
+            None => unknown.push(word.chars().take(SHOWN_CHARACTERS).collect()),
+        }
+    }
+}
+
+/// The control of this name, which is that of links.
+fn control(word: &str) -> Option<Control> {
+    let number = Parameter::ALL.into_iter().find(|parameter| parameter.field() == word).map(Control::Number);
+    let dimension = || Dimension::ALL.into_iter().find(|dimension| dimension.field() == word);
+    match word {
+        "modes" => Some(Control::Modes),
+        "force" => Some(Control::Force),
+        _ => number.or_else(|| dimension().map(Control::Dimension)),
+    }
+}
+
+/// The names of all controls, as in links.
+#[must_use]
+pub fn control_names() -> Vec<&'static str> {
+    let numbers = Parameter::ALL.iter().map(|parameter| parameter.field());
+    let dimensions = Dimension::ALL.iter().map(|dimension| dimension.field());
+    numbers.chain(["modes", "force"]).chain(dimensions).collect()
+}
+
+fn complaint(name: &str, unknown: &[String], allowed: &[&str]) -> Option<String> {
+    if unknown.is_empty() {
+        return None;
+    }
+    let named = unknown[..unknown.len().min(SHOWN_NAMES)].join(", ");
+    let values: [(&str, &dyn std::fmt::Display); 3] =
+        [("name", &name), ("unknown", &named), ("allowed", &allowed.join(", "))];
+    Some(fill("Not understood in {name}: {unknown}. There are {allowed}.", &values))
+}
+
+/// The tab to which a plot belongs; none to the fixed four of a tab that has pages.
+#[must_use]
+pub const fn tab(panel: Panel) -> Tab {
+    match panel {
+        Panel::StabilityMap | Panel::PhasePortrait | Panel::PoincareMap | Panel::TimeHistory => Tab::Explore,
+        Panel::Chart
+        | Panel::Multipliers
+        | Panel::Curves
+        | Panel::Basins
+        | Panel::Spectrum
+        | Panel::Evidence => Tab::Stability,
+        Panel::OrbitDiagram | Panel::Response => Tab::Sweep,
+        Panel::Oscilloscope | Panel::LivePortrait | Panel::LiveBeam => Tab::Live,
+        Panel::Harvest | Panel::Load | Panel::DesignMap | Panel::Measured => Tab::Design,
+    }
+}
+
+/// The parts to begin with when what is in view is to be embedded, by their places in [`PARTS`].
+#[must_use]
+pub fn usual(view: &View) -> Vec<usize> {
+    let of = |wanted: &dyn Fn(Panel) -> bool| -> Vec<usize> {
+        let shows = |i: &usize| matches!(PARTS[*i].0, Part::Plot(panel) if wanted(panel));
+        (0..PARTS.len()).filter(shows).collect()
+    };
+    let own = of(&|panel| view.enlarged == Some(panel));
+    if !own.is_empty() {
+        return own;
+    }
+    let tab_in_view =
+        if matches!(view.tab, Tab::Paper | Tab::Lessons | Tab::Live) { Tab::Explore } else { view.tab };
+    let mut first = of(&|panel| tab(panel) == tab_in_view);
+    first.truncate(2);
+    first
+}
+
+/// The element that shows these parts (by their places in [`PARTS`]) of the page at `address`, as HTML.
+#[must_use]
+pub fn snippet(address: &str, fragment: &str, parts: &[usize], controls: &[&str]) -> String {
+    let names: Vec<&str> = parts.iter().filter_map(|i| PARTS.get(*i)).map(|part| part.1).collect();
+    let query = format!("embed={}&controls={}", names.join(","), controls.join(","));
+    let source = format!("{address}?{query}#{fragment}").replace('&', "&amp;").replace('"', "&quot;");
+    let title = tr("Harvester Lab");
+    format!(
+        "<iframe src=\"{source}\" title=\"{title}\" width=\"960\" height=\"540\" style=\"border:0\"></iframe>"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{Event, Modifiers, MouseWheelUnit, TouchPhase, pos2, vec2};
+
+    #[test]
+    fn an_address_says_what_is_shown() {
+        assert!(Embed::read("").is_none() && Embed::read("?controls=omega").is_none());
+        let embed = Embed::read("?embed=map,phase,map&controls=omega,modes,resistance").expect("embedded");
+        assert_eq!(embed.parts, [Part::Plot(Panel::StabilityMap), Part::Plot(Panel::PhasePortrait)]);
+        let controls =
+            [Control::Number(Parameter::Omega), Control::Modes, Control::Dimension(Dimension::Resistance)];
+        assert_eq!((embed.controls.as_slice(), &embed.complaint), (&controls[..], &None));
+        let bare = Embed::read("?embed").expect("embedded");
+        assert_eq!((bare.parts.len(), bare.controls.len(), bare.complaint), (2, 0, None));
+        for (part, name, _) in PARTS {
+            assert_eq!(Embed::read(&format!("?embed={name}")).map(|embed| embed.parts), Some(vec![part]));
+        }
+        for name in control_names() {
+            let read = Embed::read(&format!("?embed=map&controls={name}")).expect("embedded");
+            assert!(read.controls.len() == 1 && read.complaint.is_none(), "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_known_is_told_and_the_rest_is_shown() {
+        let embed = Embed::read("?embed=map,mop,<script>&controls=omega,zeta").expect("embedded");
+        assert_eq!((embed.parts.len(), embed.controls.len()), (1, 1));
+        let complaint = embed.complaint.expect("a complaint");
+        assert!(complaint.starts_with("Not understood in embed: mop, <script>. There are verdict, map, "));
+        assert!(
+            complaint.contains("Not understood in controls: zeta. There are alpha, beta, "),
+            "{complaint}"
+        );
+        let long = Embed::read(&format!("?embed={}", "x".repeat(9000))).and_then(|embed| embed.complaint);
+        assert!(long.is_some_and(|text| text.len() < 300));
+    }
+
+    #[test]
+    fn a_snippet_is_read_back() {
+        let html = snippet("https://example.org/lab/", "v=1&omega=8.2", &[1, 2], &["alpha", "omega"]);
+        let wanted =
+            "src=\"https://example.org/lab/?embed=map,phase&amp;controls=alpha,omega#v=1&amp;omega=8.2\"";
+        assert!(html.starts_with("<iframe ") && html.contains(wanted), "{html}");
+        let view = View { enlarged: Some(Panel::Chart), ..View::default() };
+        assert_eq!(usual(&view).iter().map(|i| PARTS[*i].1).collect::<Vec<_>>(), ["chart"]);
+        assert_eq!(usual(&View::default()).iter().map(|i| PARTS[*i].1).collect::<Vec<_>>(), ["map", "phase"]);
+    }
+
+    #[test]
+    fn the_wheel_and_the_finger_belong_to_the_page_around() {
+        let embed = Embed::read("?embed=map").expect("embedded");
+        let wheel = |up: f32, modifiers| Event::MouseWheel {
+            unit: MouseWheelUnit::Point,
+            delta: vec2(0.0, up),
+            phase: TouchPhase::Move,
+            source: egui::MouseWheelSource::Unknown,
+            modifiers,
+        };
+        let press = |x| Event::PointerButton {
+            pos: pos2(x, 0.0),
+            button: egui::PointerButton::Primary,
+            pressed: true,
+            modifiers: Modifiers::NONE,
+        };
+        let moved = Event::PointerMoved(pos2(0.0, 9.0));
+        let release = Event::PointerButton {
+            pos: pos2(0.0, 9.0),
+            button: egui::PointerButton::Primary,
+            pressed: false,
+            modifiers: Modifiers::NONE,
+        };
+        let keeps = |event: &Event| embed.keeps(event, &|at| at.x > 50.0);
+        assert!(!keeps(&wheel(9.0, Modifiers::NONE)) && !keeps(&wheel(-9.0, Modifiers::NONE)));
+        assert!(keeps(&wheel(9.0, Modifiers::CTRL)));
+        assert!(!keeps(&press(10.0)) && keeps(&release));
+        assert!(!keeps(&moved) && !keeps(&release));
+        assert!(keeps(&press(60.0)) && keeps(&moved));
+        // Contents that are too tall for the frame are scrolled first.
+        embed.room.set([0.0, 80.0]);
+        assert!(keeps(&wheel(-9.0, Modifiers::NONE)) && !keeps(&wheel(9.0, Modifiers::NONE)));
+        assert!(keeps(&press(10.0)));
+    }
+}

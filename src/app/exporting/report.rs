@@ -1,0 +1,161 @@
+//! The report: device, verdict, limits and the plots of Explore, for printing.
+
+use super::BUSY;
+use crate::app::panels::design::safety::{Safety, in_words};
+use crate::app::panels::device;
+use crate::app::reading::Reading;
+use crate::app::session::Status;
+use crate::app::sharing::Errand;
+use crate::app::text::{fill, language, tr, within};
+use crate::app::view::design::Page;
+use crate::app::view::{Panel, Tab, View};
+use crate::app::widgets::number::{exact, round_significant, typographic};
+use crate::app::widgets::qr_modules;
+use crate::app::{App, bench};
+use crate::dynamics::Outcome;
+use crate::export::Figure;
+use crate::export::report::{Report, Words, html};
+use crate::jobs::study::Study as _;
+use crate::model::limits::Standing;
+use crate::model::{Demand, Dimension, ForceLaw};
+use crate::scenario::Scenario;
+
+/// Height over width of a plot in a report.
+const REPORT_ASPECT: f64 = 0.42;
+
+impl App {
+    /// Saves a report on what is in view.
+    pub(in crate::app) fn save_report(&mut self) {
+        match self.report() {
+            Some(report) => {
+                let name = "harvester-report.html".to_owned();
+                self.errands.push(Errand::Save(name, "text/html;charset=utf-8", html(&report)));
+            }
+            None => self.tell(tr(BUSY)),
+        }
+    }
+
+    fn report(&self) -> Option<Report> {
+        let shown = self.session.shown.as_ref().filter(|_| self.session.status() == Status::Done)?;
+        let provenance = self.provenance(&self.view);
+        let crew = self.crew.borrow();
+        let found = crew.studies.inspection(&shown.scenario).filter(|(_, current)| *current);
+        let verdict = found.map(|(found, _)| &found.verdict);
+        let reading = Reading::new(shown, self.session.boundaries.as_ref(), verdict);
+        let explore = View { tab: Tab::Explore, enlarged: None, ..self.view.clone() };
+        let plots = self.figures(&explore, None);
+        let mut plots: Vec<Vec<Figure>> = plots.into_iter().map(|figure| vec![figure]).collect();
+        for index in 1..plots.len() {
+            if plots[index][0].title == plots[index - 1][0].title {
+                plots[index][0].title += tr(": the end of the run");
+            }
+        }
+        plots.iter_mut().flatten().for_each(|figure| figure.aspect = REPORT_ASPECT);
+        let harvest = crew.studies.bench.harvest.study();
+        let question = bench::questions::harvest(&self.view, &self.session);
+        if harvest.is_some_and(|study| study.finished() && *study.question() == question) {
+            let mut view = View { tab: Tab::Design, enlarged: Some(Panel::Harvest), ..self.view.clone() };
+            view.design.page = Page::Harvest;
+            let mut figures = self.figures(&view, None);
+            figures.iter_mut().for_each(|figure| figure.aspect = REPORT_ASPECT);
+            plots.push(figures);
+        }
+        Some(Report {
+            words: self.report_words(),
+            headline: reading.headline,
+            facts: reading.facts,
+            remarks: reading.remarks,
+            limits: self.limits(),
+            device: device_rows(&self.view),
+            plots,
+            code: qr_modules(&provenance.link),
+            provenance,
+        })
+    }
+
+    fn report_words(&self) -> Words {
+        Words {
+            language: language().code(),
+            report: tr("Harvester report"),
+            beyond: tr("Beyond a limit"),
+            within: tr("Within the limits"),
+            device: tr("Device"),
+            dimensionless: tr("Dimensionless"),
+            parameters: [
+                tr("damping"),
+                tr("excitation"),
+                tr("frequency"),
+                tr("magnet strength"),
+                tr("gap"),
+                tr("magnet length"),
+                tr("tip mass"),
+                tr("capacitance, V⁻²"),
+                tr("conductance, V⁻²"),
+                tr("coupling, V⁻¹"),
+            ],
+            model: model_in_words(&self.view.scenario),
+        }
+    }
+
+    /// The limits that apply to the motion in view, and whether each is kept.
+    fn limits(&self) -> Vec<(String, bool)> {
+        let shown = self.session.shown.as_ref();
+        let lasting = shown.filter(|shown| shown.run.outcome() == Outcome::Completed);
+        let summary = lasting.and_then(|shown| shown.run.summary.as_ref());
+        let (Some(summary), Some(safety)) = (summary, Safety::of(&self.view, &self.session)) else {
+            return Vec::new();
+        };
+        let tip = (summary.tip_min, summary.tip_max);
+        let demand = Demand { v_peak: summary.v_peak, tip, slope: None };
+        let checks = safety.limits.checks(&demand, safety.gap);
+        checks.iter().map(|check| (in_words(check), check.standing == Standing::Within)).collect()
+    }
+}
+
+/// The device of a view for a table: name, symbol, value with unit.
+fn device_rows(view: &View) -> Vec<[String; 3]> {
+    let Ok(found) = bench::device(&view.scenario) else { return Vec::new() };
+    let row = |dimension: &Dimension| {
+        let (name, symbol, unit, factor, _) = device::words(*dimension);
+        let value = factor * dimension.get(&found);
+        let value = if value.is_finite() {
+            format!("{} {unit}", typographic(&exact(round_significant(value, 5))))
+        } else {
+            tr("open circuit").to_owned()
+        };
+        let whose = match dimension {
+            Dimension::MagnetLength | Dimension::MagnetRadius | Dimension::MagnetArea => tr("Magnet "),
+            Dimension::BeamLength | Dimension::BeamMass => tr("Beam "),
+            Dimension::CeramicThickness => tr("Ceramic "),
+            _ => "",
+        };
+        let name = if whose.is_empty() { name.to_owned() } else { whose.to_owned() + &within(name) };
+        [name, symbol.to_owned(), value]
+    };
+    let mut rows: Vec<[String; 3]> = Dimension::ALL.iter().map(row).collect();
+    let magnets = match (view.scenario.parameters.c0 == 0.0, found.repelling) {
+        (true, _) => tr("none"),
+        (false, true) => tr("repelling"),
+        (false, false) => tr("attracting"),
+    };
+    rows.push([tr("Magnets").to_owned(), String::new(), magnets.to_owned()]);
+    rows.push([
+        tr("Base acceleration").to_owned(),
+        String::new(),
+        format!("{} g", typographic(&exact(round_significant(found.acceleration(), 4)))),
+    ]);
+    rows
+}
+
+/// Modes and force law for a report.
+fn model_in_words(scenario: &Scenario) -> String {
+    let law = match scenario.model.force {
+        ForceLaw::Quadratic => tr("quadratic").to_owned(),
+        ForceLaw::Taylor(order) => fill("Taylor (order {order})", &[("order", &order)]),
+        ForceLaw::Exact => tr("exact").to_owned(),
+    };
+    match scenario.model.modes {
+        1 => fill("1 mode, {law} magnet force", &[("law", &law)]),
+        modes => fill("{modes} modes, {law} magnet force", &[("modes", &modes), ("law", &law)]),
+    }
+}

@@ -1,0 +1,141 @@
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use super::*;
+use crate::app::command::Command;
+use crate::app::crew::{Crew, Inline};
+use crate::app::history::Hand;
+use crate::app::session::Session;
+use crate::jobs::solve;
+
+/// The page of a link, everything computed, and drawn once.
+fn page(link: &str, size: [f32; 2]) -> (App, Egui) {
+    let context = Egui::default();
+    let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
+    let mut app = App::new(&context, None, crew);
+    app.set_address("https://example.org/lab/".to_owned());
+    app.open_link(link);
+    for frame in 0..20_000 {
+        app.logic(&context);
+        let busy = app.session.status() != Status::Done || app.crew.borrow_mut().is_busy();
+        if frame > 3 && !busy {
+            break;
+        }
+        app.follow();
+    }
+    assert_eq!(app.session.status(), Status::Done);
+    for _ in 0..3 {
+        let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, size.into()));
+        let input = RawInput { screen_rect, ..RawInput::default() };
+        context.run_ui(input, |ui| app.ui(ui)).drop_without_applying_deltas();
+    }
+    (app, context)
+}
+
+/// What is saved of the card.
+fn saved(app: &mut App, context: &Egui, title: &str, format: Format) -> (String, String) {
+    app.export(context, title, format);
+    match app.take_errands().pop() {
+        Some(Errand::Save(name, _, text) | Errand::Picture(name, text, PICTURE_SCALE)) => (name, text),
+        other => panic!("{title}: {other:?}, {:?}", app.notice),
+    }
+}
+
+/// Leaves it where a person can look at it.
+fn keep(name: &str, text: &str) {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("target/exports");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::write(folder.join(name), text).expect("a file");
+}
+
+const FIGURE_9: &str = "v=1&alpha=1e-4&beta=0.01&omega=8.0969&map=first";
+
+#[test]
+fn every_plot_of_every_tab_is_saved_in_light_colours_and_the_page_stays_as_it_is() {
+    let all: [(&str, &[&str]); 6] = [
+        (FIGURE_9, &["Stability near 2ω₁", "Phase portrait", "Poincaré map", "Time history"]),
+        (
+            "v=1&alpha=1e-4&beta=0.01&omega=8.0969&tab=stability&layer=motion&map=first",
+            &["Stability chart", "Floquet multipliers", "Spectrum", "Basins of attraction"],
+        ),
+        (
+            "v=1&alpha=1e-4&beta=0.005&omega=8.0969&tab=sweep&map=first&sweep.count=30",
+            &["Orbit diagram", "Response curves"],
+        ),
+        ("v=1&alpha=1e-4&beta=0.01&omega=8.0969&tab=design", &["Over frequency"]),
+        ("v=1&tab=paper&figure=9", &["(a)  Initial history", "(c)  Phase diagram", "(d)  Poincaré map"]),
+        ("v=1&tab=paper&figure=7", &["Stability boundaries"]),
+    ];
+    for (number, (link, titles)) in all.into_iter().enumerate() {
+        let (mut app, context) = page(link, [1440.0, 900.0]);
+        let view = app.view.clone();
+        for title in titles {
+            let (name, text) = saved(&mut app, &context, title, Format::Svg);
+            keep(&format!("{number}-{name}"), &text);
+            let drawing = roxmltree::Document::parse(&text).expect("well-formed");
+            assert!(drawing.descendants().any(|node| node.text() == Some(title)), "{title}");
+            assert!(
+                text.contains(&format!("#{:02x}{:02x}{:02x}", 20, 26, 32)) && text.contains("fill=\"#fff\"")
+            );
+            let (name, table) = saved(&mut app, &context, title, Format::Csv);
+            keep(&format!("{number}-{name}"), &table);
+            assert!(table.starts_with(&format!("# plot: {title}\n# program: Harvester Lab ")), "{table}");
+            assert_eq!(table.contains("# sweep: omega from "), view.tab == Tab::Sweep);
+            assert!(table.lines().filter(|line| !line.starts_with('#')).count() > 5, "{title}");
+            let (picture, again) = saved(&mut app, &context, title, Format::Png);
+            assert!(picture.ends_with(".png") && again == text, "{picture}");
+        }
+        assert_eq!((app.view.clone(), app.notice.clone()), (view, None));
+    }
+}
+
+#[test]
+fn a_report_holds_the_numbers_of_the_scenario() {
+    let (mut app, _) = page(FIGURE_9, [1440.0, 900.0]);
+    app.step(Command::Report, Hand::default());
+    let errands = app.take_errands();
+    let [Errand::Save(name, kind, text)] = errands.as_slice() else { panic!("{errands:?}") };
+    keep(name, text);
+    assert_eq!((name.as_str(), *kind), ("harvester-report.html", "text/html;charset=utf-8"));
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let page = roxmltree::Document::parse_with_options(text, options).expect("well-formed");
+    let count = |tag: &str| page.descendants().filter(|node| node.has_tag_name(tag)).count();
+    let svg = "http://www.w3.org/2000/svg";
+    let drawings = page.descendants().filter(|node| node.has_tag_name((svg, "svg"))).count();
+    assert_eq!(drawings, 6, "four plots, a close view and a code");
+    assert_eq!(count("script"), 0);
+    for part in ["Period 2", "1e−4", "8.0969", "480 mm", "v=1&amp;alpha=1e-4", "of the gap"] {
+        assert!(text.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn what_is_not_there_is_not_saved_and_said() {
+    let (mut app, context) = page("v=1", [900.0, 700.0]);
+    for title in ["Orbit diagram", "", "no such card"] {
+        app.export(&context, title, Format::Svg);
+        assert_eq!(app.take_errands(), []);
+        assert_eq!(app.notice.take().as_deref(), Some(BUSY));
+    }
+}
+
+#[test]
+fn files_have_plain_names() {
+    assert_eq!(file_name("Poincaré map"), "harvester-poincare-map");
+    assert_eq!(file_name("Stability near ω₁+ω₂"), "harvester-stability-near-omega1-omega2");
+    assert_eq!(file_name("(c)  Phase diagram"), "harvester-c-phase-diagram");
+}
+
+#[test]
+fn the_solver_answers_what_the_programs_ask() {
+    for link in [
+        "v=1&alpha=1e-4&beta=0.01&omega=8.0969&force=taylor5&t_end=300&initial=0+0.1+0+0+0",
+        "v=1&tab=sweep&sweep.count=3&sweep.dwell.discarded=10&sweep.dwell.kept=4&omega=8",
+        "v=1&tab=design&omega=8.0969&resistance=1e6&scaling=consistent",
+    ] {
+        let view = crate::app::link::read(link, &View::default()).0;
+        let request = request(&view, &Session::default());
+        let answer = solve(&request);
+        assert!(answer.is_ok(), "{request}: {answer:?}");
+    }
+}

@@ -1,0 +1,56 @@
+//! The beam in the present state.
+
+use std::f64::consts::TAU;
+
+use egui::Ui;
+
+use crate::app::curves::{self, SIGHT};
+use crate::app::panels::Context;
+use crate::app::panels::controls::short;
+use crate::app::text::{fill, tr};
+use crate::app::view::Panel;
+use crate::app::widgets::BeamView;
+
+/// Draws the card.
+pub(in crate::app::panels) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = hint(context);
+    context.plot_card(ui, Panel::LiveBeam, tr("Live beam"), &hint, picture);
+}
+
+/// How fast it moves, next to the device.
+fn hint(context: &Context<'_>) -> String {
+    let hertz = context.view.scenario.units().hertz(context.view.scenario.parameters.omega);
+    let slower = hertz / context.view.live.speed;
+    if (0.95..1.05).contains(&slower) {
+        return tr("as fast as the device").to_owned();
+    }
+    if slower > 1.0 {
+        return fill("{times} times slower than the device", &[("times", &short(slower))]);
+    }
+    fill("{times} times faster than the device", &[("times", &short(1.0 / slower))])
+}
+
+fn picture(context: &mut Context<'_>, ui: &mut Ui) {
+    let live = context.live;
+    let Some((system, state, now)) = live.now() else { return };
+    let gap = system.equilibrium.gap;
+    if !(now.values[2].abs() < SIGHT.max(2.0 * gap)) {
+        ui.label(tr("The tip has left the picture."));
+        return;
+    }
+    let shape = curves::beam(&live.shapes, state);
+    let extremes = live.trail.extremes().map(|state| {
+        let state = state.filter(|state| state.len() == system.dimension());
+        state.map_or_else(Vec::new, |state| curves::beam(&live.shapes, state))
+    });
+    let within = |shape: &&[[f64; 2]]| !shape.is_empty() && shape.iter().all(|point| point[1].abs() < 1.0);
+    let extremes: Vec<&[[f64; 2]]> = extremes.iter().map(Vec::as_slice).filter(within).collect();
+    let p = &system.parameters;
+    let base = p.beta * (TAU * now.turns.fract()).sin();
+    let mut beam = BeamView::new(&shape, -gap).base(base).extremes(&extremes);
+    if p.c0 != 0.0 {
+        beam = beam.gap((gap + now.values[2]) / gap);
+    }
+    let height = ui.available_height();
+    beam.show(ui, height);
+}

@@ -1,0 +1,106 @@
+//! The oscilloscope: what is traced over the last excitation periods.
+
+use egui::{RichText, Ui};
+use egui_plot::{PlotBounds, PlotPoint};
+
+use super::{Traced, look, si};
+use crate::app::live::Sample;
+use crate::app::panels::Context;
+use crate::app::text::tr;
+use crate::app::theme;
+use crate::app::view::Panel;
+use crate::app::view::live::Trace;
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{Series, chips};
+use crate::export::Pen;
+
+/// Excitation periods a second from which the trace stands still between triggers instead of rolling.
+const TRIGGERED_FROM: f64 = 6.0;
+/// Windows to choose from: periods of doubled motions divide all of them.
+const WINDOWS: [(usize, &str); 3] = [(4, "4"), (12, "12"), (48, "48")];
+
+/// Draws the card.
+pub(in crate::app::panels) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let triggered = context.view.live.speed >= TRIGGERED_FROM;
+    let hint = if triggered { tr("triggered at phase 0") } else { tr("rolling") };
+    context.plot_card(ui, Panel::Oscilloscope, tr("Oscilloscope"), hint, |context, ui| {
+        choices(context, ui);
+        plot(context, ui, triggered);
+    });
+}
+
+fn choices(context: &mut Context<'_>, ui: &mut Ui) {
+    let mut live = context.view.live;
+    let weak = theme::tokens(ui).text_weak;
+    ui.horizontal_wrapped(|ui| {
+        let traces = [(Trace::Voltage, tr("voltage")), (Trace::Tip, tr("tip"))];
+        chips(ui, tr("Trace"), &mut live.trace, &traces);
+        chips(ui, tr("Periods across"), &mut live.periods, &WINDOWS);
+        ui.label(RichText::new(tr("periods")).small().color(weak));
+    });
+    if live != context.view.live {
+        look(context, |view| *view = live);
+    }
+}
+
+fn plot(context: &Context<'_>, ui: &mut Ui, triggered: bool) {
+    let (Some((system, _, _)), Some(now)) = (context.live.now(), context.live.present()) else { return };
+    let traced = Traced::of(context);
+    let (units, periods) = (si(context), context.view.live.periods as f64);
+    let period = system.parameters.period();
+    // From turns or time to the axis, where the window begins at 0 or ends there.
+    let unit = units.map_or(1.0 / period, |units| units.time);
+    let begun = if triggered { (now.turns / periods).floor() * periods } else { now.turns - periods };
+    let across = |sample: &Sample, from: f64| match units {
+        // The period may have changed on the way.
+        Some(_) if triggered => {
+            start(context, from, period, &now).map_or(0.0, |time| sample.time - time) * unit
+        }
+        Some(_) => (sample.time - now.time) * unit,
+        None if triggered => sample.turns - from,
+        None => sample.turns - now.turns,
+    };
+    let width = units.map_or(periods, |_| periods * period * unit);
+    let place = |sample: &Sample, from: f64| PlotPoint::new(across(sample, from), traced.point(sample)[0]);
+    let trail = &context.live.trail;
+    let mut present: Vec<PlotPoint> = trail.since(begun).map(|sample| place(sample, begun)).collect();
+    present.push(place(&now, begun));
+    let mut before: Vec<PlotPoint> = Vec::new();
+    if triggered {
+        let last = begun - periods;
+        let head = present.last().map_or(0.0, |point| point.x);
+        let samples = trail.since(last).take_while(|sample| sample.turns <= begun);
+        before.extend(samples.map(|sample| place(sample, last)).filter(|point| point.x > head));
+    }
+    let x = match units {
+        Some(_) => Axis::new(tr("time"), "t").unit("s"),
+        None => Axis::new(tr("excitation periods"), "ωt/2π"),
+    };
+    let [height, _] = traced.scales(context);
+    let [y, _] = &traced.axes;
+    let bounds = if triggered { [0.0, width] } else { [-width, 0.0] };
+    let tokens = theme::tokens(ui);
+    plot_style::plot(ui, "oscilloscope", &x, y)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_double_click_reset(false)
+        .show(ui, |plot| {
+            plot.set_plot_bounds(PlotBounds::from_min_max([bounds[0], -height], [bounds[1], height]));
+            plot_style::rule(plot, false, "", 0.0, tokens.ruler, Pen::Line(1.0));
+            let faint = tokens.numeric.gamma_multiply(0.4);
+            plot_style::curve(plot, tr("sweep before"), faint, Pen::Line(1.5), &before);
+            plot_style::series(plot, Series::Numeric, y.symbol(), &present);
+            if let Some(head) = present.last().filter(|_| triggered) {
+                plot_style::points(plot, Series::Numeric, y.symbol(), std::slice::from_ref(head));
+            }
+        });
+}
+
+/// The time at which the window that began at `turns` did so; by the present period where that is not on record.
+fn start(context: &Context<'_>, turns: f64, period: f64, now: &Sample) -> Option<f64> {
+    let first = context.live.trail.since(turns).next();
+    let reference = first.filter(|sample| sample.turns < turns + 1.0).unwrap_or(now);
+    let time = reference.time - (reference.turns - turns) * period;
+    time.is_finite().then_some(time)
+}
