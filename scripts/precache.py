@@ -14,6 +14,8 @@ def hash_listed(folder: pathlib.Path) -> None:
     """Gives what the page lists in `meta` elements names with hashes, which Trunk gives to what it knows."""
     page = (folder / "index.html").read_text()
     for element, name in re.findall(r'(<meta name="?(?:text|font)-\w+"? content="?)([\w.-]+)', page):
+        if re.search(r"-[0-9a-f]{16}\.", name):
+            continue
         file = folder / name
         digest = hashlib.sha256(file.read_bytes()).hexdigest()[:16]
         hashed = file.rename(file.with_stem(f"{file.stem}-{digest}"))

@@ -329,6 +329,37 @@ fn every_number_in_the_texts_is_claimed_or_set() {
     assert!(failures.is_empty(), "{failures:#?}");
 }
 
+/// Translations say the same numbers as the English text, which is held to the solver, and have the same words in bold.
+#[test]
+fn translations_say_the_same_numbers() {
+    for id in LessonId::all() {
+        let lesson: Value = serde_json::from_str(id.source()).expect("JSON");
+        compare(id, &lesson);
+    }
+}
+
+fn compare(id: LessonId, value: &Value) {
+    let all = |text: &str| -> BTreeSet<String> {
+        let parts = text.split(|glyph: char| !glyph.is_ascii_digit() && glyph != '.');
+        parts.map(|part| part.trim_matches('.').to_owned()).filter(|part| !part.is_empty()).collect()
+    };
+    match value {
+        Value::Object(entries) if entries.contains_key("en") => {
+            let english = entries["en"].as_str().expect("a text");
+            for code in ["de", "zh"] {
+                let text = entries.get(code).and_then(Value::as_str);
+                let text = text.unwrap_or_else(|| panic!("{id}: no {code} of {english:?}"));
+                assert!(!text.trim().is_empty(), "{id}: {code} of {english:?} is empty");
+                assert_eq!(all(english), all(text), "{id}: {code} of {english:?}");
+                assert_eq!(english.matches("**").count(), text.matches("**").count(), "{id}: {text:?}");
+            }
+        }
+        Value::Object(entries) => entries.values().for_each(|entry| compare(id, entry)),
+        Value::Array(entries) => entries.iter().for_each(|entry| compare(id, entry)),
+        _ => {}
+    }
+}
+
 #[test]
 fn the_check_for_numbers_sees_them() {
     assert_eq!(

@@ -9,6 +9,7 @@ mod export;
 mod failure;
 mod firefox;
 mod keyboard;
+mod languages;
 mod lessons;
 mod live;
 mod mirror;

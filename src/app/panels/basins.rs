@@ -116,7 +116,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
                 .filter(|attractor| matches!(attractor.cell.motion, Motion::Periodic { .. }))
                 .map(|attractor| {
                     let place = PlotPoint::new(attractor.start[question.x.0], attractor.start[question.y.0]);
-                    (attractor.cell.motion.to_string(), place)
+                    (motion_in_words(attractor.cell.motion), place)
                 })
                 .collect();
             for (name, place) in &places {

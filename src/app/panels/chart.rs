@@ -9,7 +9,7 @@ use super::stability_map::{self, drag_point};
 use crate::app::command::Command;
 use crate::app::map::{Boundaries, ceiling};
 use crate::app::panels::computing;
-use crate::app::text::tr;
+use crate::app::text::{motion_in_words, tr};
 use crate::app::theme::{self, Tokens};
 use crate::app::view::{Layer, Panel};
 use crate::app::widgets::number::{self, significant};
@@ -204,7 +204,7 @@ fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f6
         Some(match layer {
             Layer::Voltage => number::exact(cell.v_rms),
             Layer::Power => number::exact(factor * cell.power),
-            _ => cell.motion.to_string(),
+            _ => motion_in_words(cell.motion),
         })
     };
     let name = match layer {

@@ -3,7 +3,7 @@
 use egui::{Popup, Ui};
 
 use super::{Context, share, shortcuts};
-use crate::app::command::Command;
+use crate::app::command::{Command, Commands};
 use crate::app::panels::computing;
 use crate::app::session::Status;
 use crate::app::text::{self, Language, tr};
@@ -29,7 +29,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
                 title(ui);
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     ui.spacing_mut().item_spacing.x = 2.0;
-                    switches(context, ui);
+                    switches(context, ui, width < PHONE);
                     share::buttons(context, ui);
                     status(context, ui, if width < PHONE { sign } else { badge });
                 });
@@ -45,7 +45,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             choose_tab(context, ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 shortcuts::button(ui);
-                switches(context, ui);
+                switches(context, ui, false);
                 share::buttons(context, ui);
                 ui.add_space(6.0);
                 status(context, ui, badge);
@@ -75,9 +75,14 @@ fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str
     };
 }
 
-fn switches(context: &mut Context<'_>, ui: &mut Ui) {
-    languages(context, ui);
-    choose_theme(context, ui);
+/// Where there is no room for another switch, the languages stand among the themes.
+fn switches(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
+    if !with_languages {
+        let button = icon_button(ui, Icon::Globe, tr("Language"));
+        let popup = Popup::menu(&button).accessible_name(tr("Language"));
+        popup.show(|ui| languages(context.commands, ui));
+    }
+    choose_theme(context, ui, with_languages);
     let large = context.view.projector;
     let label = if large { tr("Normal type") } else { tr("Large type for a projector") };
     if icon_button(ui, if large { Icon::Shrink } else { Icon::Enlarge }, label).clicked() {
@@ -95,7 +100,7 @@ fn switches(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 /// The menu of themes: the choice, or the system's, and high contrast with either.
-fn choose_theme(context: &mut Context<'_>, ui: &mut Ui) {
+fn choose_theme(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
     let tokens = theme::tokens(ui);
     let button = icon_button(ui, if tokens.dark { Icon::Moon } else { Icon::Sun }, tr("Theme"));
     let popup = Popup::menu(&button).accessible_name(tr("Theme"));
@@ -116,18 +121,18 @@ fn choose_theme(context: &mut Context<'_>, ui: &mut Ui) {
         if ui.checkbox(&mut contrast, tr("High contrast")).clicked() {
             commands.push(Command::SetContrast(contrast));
         }
+        if with_languages {
+            ui.separator();
+            languages(commands, ui);
+        }
     });
 }
 
 /// The languages, each by its own name.
-fn languages(context: &mut Context<'_>, ui: &mut Ui) {
-    let button = icon_button(ui, Icon::Globe, tr("Language"));
-    let popup = Popup::menu(&button).accessible_name(tr("Language"));
-    popup.show(|ui| {
-        for language in Language::ALL {
-            if ui.radio(language == text::language(), language.own_name()).clicked() {
-                context.commands.push(Command::Speak(language));
-            }
+fn languages(commands: &mut Commands, ui: &mut Ui) {
+    for language in Language::ALL {
+        if ui.radio(language == text::language(), language.own_name()).clicked() {
+            commands.push(Command::Speak(language));
         }
-    });
+    }
 }

@@ -7,7 +7,7 @@ use super::{fill_with, is_english, marked, tr};
 use crate::dynamics::motion::Motion;
 
 /// The sentences, the more special before the more general. A value may be another sentence.
-const SENTENCES: [&str; 66] = [
+const SENTENCES: [&str; 67] = [
     // Motions.
     marked("a start on the stable forced motion leads to another motion: {motion}, {volts} V rms"),
     marked("a start at rest leads to another motion: {motion}, {volts} V rms"),
@@ -54,6 +54,7 @@ const SENTENCES: [&str; 66] = [
     marked("exponent {value}"),
     marked("no voltage"),
     marked("{percent} % of its power between the lines"),
+    marked("{line} at {volts} V"),
     // Points where curves of bifurcations meet.
     marked("cusp"),
     marked("{ratio} resonance"),

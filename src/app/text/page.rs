@@ -7,7 +7,7 @@ use super::{fill, marked, tr};
 use crate::model::ForceLaw;
 
 /// The texts as they stand there, without blanks at their ends.
-pub const TEXTS: [&str; 35] = [
+pub const TEXTS: [&str; 36] = [
     marked("Go to text controls"),
     marked("Harvester Lab: sliders and plots"),
     marked(
@@ -23,6 +23,7 @@ pub const TEXTS: [&str; 35] = [
     marked("exact"),
     marked("Page"),
     marked("Explore"),
+    marked("Live"),
     marked("Stability"),
     marked("Sweep"),
     marked("Design"),
