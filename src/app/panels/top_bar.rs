@@ -12,7 +12,7 @@ use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, sign, tabs};
 use crate::app::{fonts, theme};
 
 /// Width below which the tabs move under the switches.
-const NARROW: f32 = 840.0;
+const NARROW: f32 = 1060.0;
 /// Width below which the state of the computation is a sign without words.
 const PHONE: f32 = 420.0;
 

@@ -107,7 +107,7 @@ fn extremes(map: &DesignMap) -> (f64, f64) {
 
 fn axis(dimension: Dimension, logarithmic: bool) -> Axis {
     let (name, symbol, unit, ..) = device::words(dimension);
-    let axis = Axis::new(name.to_lowercase(), symbol).unit(unit);
+    let axis = Axis::new(within(name), symbol).unit(unit);
     if logarithmic { axis.logarithmic() } else { axis }
 }
 
