@@ -5,12 +5,25 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 
 SERVICE = "service.js"
 
 
+def hash_listed(folder: pathlib.Path) -> None:
+    """Gives what the page lists in `meta` elements names with hashes, which Trunk gives to what it knows."""
+    page = (folder / "index.html").read_text()
+    for element, name in re.findall(r'(<meta name="?(?:text|font)-\w+"? content="?)([\w.-]+)', page):
+        file = folder / name
+        digest = hashlib.sha256(file.read_bytes()).hexdigest()[:16]
+        hashed = file.rename(file.with_stem(f"{file.stem}-{digest}"))
+        page = page.replace(element + name, element + hashed.name)
+    (folder / "index.html").write_text(page)
+
+
 def main() -> None:
     folder = pathlib.Path(os.environ["TRUNK_STAGING_DIR"])
+    hash_listed(folder)
     files = []
     for file in sorted(path for path in folder.rglob("*") if path.is_file()):
         name = file.relative_to(folder).as_posix()

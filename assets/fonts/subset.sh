@@ -1,12 +1,29 @@
 #!/bin/sh
-# Makes the three font files of this folder. Needs npm, Debian's fonts-dejavu-core and Python with fonttools 4.68.
-# Usage: assets/fonts/subset.sh [path of DejaVuSans.ttf]
+# Makes the font files of this folder. Needs npm, Debian's fonts-dejavu-core and fonts-droid-fallback, and Python with
+# fonttools 4.68. With `chinese` it makes only the Chinese ones: run it when the Chinese texts use new characters.
+# Usage: assets/fonts/subset.sh [chinese]
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
-dejavu=${1:-/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf}
+dejavu=/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
+droid=${DROID:-/usr/share/fonts-droid-fallback/truetype/DroidSansFallback.ttf}
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 cd "$work"
+
+# What the Chinese texts use beyond Latin and Greek, and the name of the language, which is always needed.
+ideographs() {
+    cat "$here"/../text/zh.json "$here"/../lessons/*.json | python3 -c "
+import sys
+print(''.join(sorted({letter for letter in sys.stdin.read() if letter >= chr(0x2e80)})))"
+}
+chinese() {
+    pyftsubset "$droid" --text="$1" --layout-features='' --no-hinting --notdef-outline \
+        --name-IDs='0,1,2,5,13,14' --drop-tables+=DSIG,GSUB,GPOS,GDEF,vhea,vmtx --output-file="$here/$2"
+}
+chinese "$(ideographs)" DroidSansFallback-subset.ttf
+chinese 中文 DroidSansFallback-name.ttf
+[ "${1:-}" != chinese ] || exit 0
+
 npm pack --silent @expo-google-fonts/inter@0.4.2
 tar xzf expo-google-fonts-inter-0.4.2.tgz
 

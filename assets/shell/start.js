@@ -13,6 +13,71 @@ if (embedded) {
   HTMLInputElement.prototype.focus = () => {};
 }
 
+// What may have to be said before the app is there to translate it, or instead of it.
+const EARLY = {
+  de: {
+    "Loading": "Wird geladen",
+    "Reload": "Neu laden",
+    "Start over": "Neu beginnen",
+    "Copy state": "Zustand kopieren",
+    "Harvester Lab cannot start": "Harvester Lab kann nicht starten",
+    "This browser cannot show Harvester Lab": "Dieser Browser kann Harvester Lab nicht zeigen",
+    "{name} is missing or switched off.": "{name} fehlt oder ist abgeschaltet.",
+  },
+  zh: {
+    "Loading": "载入中",
+    "Reload": "重新载入",
+    "Start over": "重新开始",
+    "Copy state": "复制状态",
+    "Harvester Lab cannot start": "Harvester Lab 无法启动",
+    "This browser cannot show Harvester Lab": "此浏览器无法显示 Harvester Lab",
+    "{name} is missing or switched off.": "{name} 缺失或已关闭。",
+  },
+};
+// Translations by their English texts; the app brings its own.
+let words = {};
+const say = (english) => words[english] ?? english;
+// What was translated: its English text, and the one shown in its place.
+const translated = new WeakMap();
+
+function translate(holder, present, show) {
+  const before = translated.get(holder);
+  const source = before?.shown === present ? before.source : present;
+  const text = source.trim();
+  const shown = text ? source.replace(text, () => say(text)) : source;
+  if (shown === present) return;
+  translated.set(holder, { source, shown });
+  show(shown);
+}
+
+// Texts and labels of the page's own elements; whatever else stands there has no translation and stays.
+function speak(code, catalogue) {
+  words = catalogue;
+  root.lang = code;
+  const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (texts.nextNode()) {
+    const node = texts.currentNode;
+    translate(node, node.data, (shown) => (node.data = shown));
+  }
+  for (const labelled of document.querySelectorAll("[aria-label]")) {
+    const label = labelled.getAttributeNode("aria-label");
+    translate(label, label.value, (shown) => (label.value = shown));
+  }
+}
+
+// What the address asks for, what was chosen last, or what the browser prefers.
+function firstLanguage() {
+  let chosen = null;
+  try {
+    chosen = JSON.parse(stored()).lang;
+  } catch {
+    // Nothing stored, or nothing that can be read: the app will say so.
+  }
+  const asked = new URLSearchParams(location.search).get("lang");
+  const known = (tag) => (tag ? ["en", ...Object.keys(EARLY)].find((code) => tag.toLowerCase().startsWith(code)) : undefined);
+  return known(asked) ?? known(chosen) ?? known(navigator.language) ?? "en";
+}
+
 function stored() {
   try {
     return embedded ? null : localStorage.getItem(KEY);
@@ -28,10 +93,10 @@ function fail(title, detail) {
   const state = stored();
   // Shown first, filled then: so it is read out.
   element("failure").hidden = false;
-  element("failure-title").textContent = title;
-  element("failure-detail").textContent = detail;
+  element("failure-title").textContent = say(title);
+  element("failure-detail").textContent = say(detail);
   element("failure-advice").textContent = state
-    ? "Your last scenario is kept in this browser. Reload continues it. If that stops again, copy it and start over."
+    ? say("Your last scenario is kept in this browser. Reload continues it. If that stops again, copy it and start over.")
     : "";
   element("copy-state").hidden = !state;
   element("start-over").hidden = !state;
@@ -43,7 +108,7 @@ async function copyState() {
   text.value = stored() ?? "";
   try {
     await navigator.clipboard.writeText(text.value);
-    element("copy-state").textContent = "Copied";
+    element("copy-state").textContent = say("Copied");
   } catch {
     // No clipboard without permission or https: show the text to copy by hand.
     text.hidden = false;
@@ -75,7 +140,7 @@ function missing() {
 async function start() {
   const lacking = missing();
   if (lacking) {
-    fail("This browser cannot show Harvester Lab", `${lacking} is missing or switched off.`);
+    fail("This browser cannot show Harvester Lab", say("{name} is missing or switched off.").replace("{name}", lacking));
     return;
   }
   addEventListener("error", stopped);
@@ -110,7 +175,7 @@ window.harvesterShell = Object.freeze({
     // The field into which the app has texts typed; it comes and goes by the canvas, not by Tab.
     const typed = element("canvas").nextElementSibling;
     typed.tabIndex = -1;
-    typed.setAttribute("aria-label", "Text typed into the picture");
+    typed.setAttribute("aria-label", say("Text typed into the picture"));
   },
   // Tells whoever listens; what is costly to make is made when it is looked at.
   changed: (mirror) => {
@@ -125,6 +190,13 @@ window.harvesterShell = Object.freeze({
   // What is around the canvas looks as what is in it.
   look: (dark, contrast) => (root.dataset.look = `${dark ? "dark" : "light"}${contrast ? " contrast" : ""}`),
   fail,
+  speak: (code, catalogue) => speak(code, JSON.parse(catalogue)),
+  // The bytes of a file whose name carries a hash.
+  fetchListed: async (name) => {
+    const response = await fetch(document.querySelector(`meta[name="${name}"]`).content);
+    if (!response.ok) throw new Error(`${name}: ${response.status}`);
+    return response.arrayBuffer();
+  },
   // A worker that runs the page's own module, compiled only once.
   worker: (wasm) => {
     try {
@@ -136,6 +208,8 @@ window.harvesterShell = Object.freeze({
     }
   },
 });
+const language = firstLanguage();
+speak(language, EARLY[language] ?? {});
 element("copy-state").addEventListener("click", copyState);
 element("reload").addEventListener("click", () => location.reload());
 element("start-over").addEventListener("click", startOver);

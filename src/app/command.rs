@@ -6,6 +6,7 @@ use super::live::LiveAction;
 use super::view::design::DesignView;
 use super::view::live::LiveView;
 use super::view::{Layer, MapWindow, Panel, SweepView, Tab};
+use crate::app::text::Language;
 use crate::export::Format;
 use crate::model::Parameter;
 use crate::scenario::Scenario;
@@ -47,6 +48,8 @@ pub(super) enum Command {
     Pin(bool),
     /// Dark or light theme.
     SetDark(bool),
+    /// Another language.
+    Speak(Language),
     /// High contrast or not.
     SetContrast(bool),
     /// Light, dark and contrast as the system has them.

@@ -1,5 +1,6 @@
 //! The typefaces of the app: subsets of Inter for text and numbers, of DejaVu Sans for a few signs Inter lacks.
 //!
+//! Chinese comes from a font that is fetched when that language is chosen; only the name of the language is always there.
 //! egui's own fonts are compiled out. How the subsets were made is in `assets/fonts/README.md`.
 //! Digits all have one width in both weights, so a changing number does not make its neighbours jitter.
 
@@ -10,6 +11,7 @@ use egui::epaint::text::{FontData, FontDefinitions, FontFamily, FontId};
 const REGULAR: &[u8] = include_bytes!("../../assets/fonts/Inter-Regular-subset.ttf");
 const SEMIBOLD: &[u8] = include_bytes!("../../assets/fonts/Inter-SemiBold-subset.ttf");
 const SYMBOLS: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans-symbols.ttf");
+const NAME: &[u8] = include_bytes!("../../assets/fonts/DroidSansFallback-name.ttf");
 
 /// Name under which the heavier weight is registered.
 const SEMIBOLD_FAMILY: &str = "semibold";
@@ -19,17 +21,21 @@ pub const SPECIAL_GLYPHS: &str = "αβγδεζηθικλμνξοπρστυφχψ
     ₀₁₂₃₄₅₆₇₈₉ᵢₖₙₑ₊₋⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ⁿẋẏż·×÷−±≈≠≤≥√∞∂∫∑∆∝∈π°′″…–—‘’“”•→←↑↓↔▸▾▴◂●○◆▲▼■⊕✓✕⟲⟳";
 
 /// Makes these fonts the only ones of `context`. Call it before the first frame.
-pub fn install(context: &egui::Context) {
-    context.set_fonts(definitions());
+pub fn install(context: &egui::Context, ideographs: Option<&Arc<FontData>>) {
+    context.set_fonts(definitions(ideographs));
 }
 
 /// The fonts and the order in which a character is looked up in them.
-pub fn definitions() -> FontDefinitions {
+pub fn definitions(ideographs: Option<&Arc<FontData>>) -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     for (name, bytes) in [("regular", REGULAR), ("semibold", SEMIBOLD), ("symbols", SYMBOLS)] {
         fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(bytes)));
     }
-    let chain = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+    let last = ideographs.cloned().unwrap_or_else(|| Arc::new(FontData::from_static(NAME)));
+    fonts.font_data.insert("ideographs".to_owned(), last);
+    let chain = |names: &[&str]| {
+        names.iter().chain(&["ideographs"]).map(|name| (*name).to_owned()).collect::<Vec<_>>()
+    };
     fonts.families.insert(FontFamily::Proportional, chain(&["regular", "symbols"]));
     fonts.families.insert(FontFamily::Monospace, chain(&["regular", "symbols"]));
     // The heavier weight has what titles need; the rest comes from the normal one.
@@ -54,7 +60,7 @@ mod tests {
 
     fn with_fonts<R>(read: impl FnOnce(&mut egui::epaint::text::FontsView<'_>) -> R) -> R {
         let context = egui::Context::default();
-        install(&context);
+        install(&context, None);
         let output = context.run_ui(egui::RawInput::default(), |_| {});
         output.drop_without_applying_deltas();
         context.fonts_mut(read)
@@ -87,6 +93,6 @@ mod tests {
 
     #[test]
     fn fonts_stay_small() {
-        assert!(REGULAR.len() + SEMIBOLD.len() + SYMBOLS.len() < 90_000);
+        assert!(REGULAR.len() + SEMIBOLD.len() + SYMBOLS.len() + NAME.len() < 90_000);
     }
 }

@@ -7,6 +7,7 @@ use super::App;
 use super::link;
 use super::reading::Reading;
 use super::session::Status;
+use super::text::{self, Language};
 use super::view::{Tab, View};
 
 /// The entries that have native controls, by their names in links and in `index.html`.
@@ -20,6 +21,8 @@ pub struct Signs {
     /// The answer that can be told: nothing is being computed that would change it.
     answer: Option<u64>,
     failure: Option<String>,
+    /// The verdict is told again in another language.
+    language: Language,
 }
 
 impl App {
@@ -31,6 +34,7 @@ impl App {
             view: self.view.clone(),
             steps: self.history.can(),
             answer: self.session.shown.as_ref().filter(|_| rests).map(|shown| shown.generation),
+            language: text::language(),
             failure: match status {
                 Status::Failed(message) => Some(message),
                 _ => None,
@@ -51,7 +55,7 @@ impl App {
         let entries: Map<String, Value> =
             entries.into_iter().map(|(name, text)| (name.to_owned(), Value::from(text))).collect();
         let spoken = match (&signs.failure, signs.answer) {
-            (Some(message), _) => Value::from(message.as_str()),
+            (Some(message), _) => Value::from(text::reworded(message)),
             (None, Some(_)) => self.spoken_verdict().map_or(Value::Null, Value::from),
             (None, None) => Value::Null,
         };

@@ -35,6 +35,7 @@ mod reading;
 mod report;
 mod session;
 pub mod sharing;
+pub mod speaking;
 mod steps;
 
 use std::cell::RefCell;
@@ -80,6 +81,7 @@ pub struct App {
     /// Cards to be saved at the end of this frame.
     exports: Vec<(String, Format)>,
     /// What egui was last told about theme and type size.
+    speech: speaking::Speech,
     styled: Option<(bool, bool, bool)>,
     /// Whether the system asks for high contrast.
     system_contrast: bool,
@@ -88,7 +90,7 @@ pub struct App {
 impl App {
     /// A new application with its `crew`, continuing what an earlier session `stored` when that is valid.
     pub fn new(context: &egui::Context, stored: Option<&str>, crew: Rc<RefCell<Crew>>) -> Self {
-        fonts::install(context);
+        fonts::install(context, None);
         let (view, notice) = View::restore(stored);
         let mut session = Session::default();
         session.ask(&view.scenario);
@@ -109,6 +111,7 @@ impl App {
             errands,
             exports,
             styled: None,
+            speech: speaking::Speech::default(),
             system_contrast: false,
         };
         app.style(context);
@@ -190,6 +193,7 @@ impl App {
     /// Draws one frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
+        self.find_words();
         widgets::touch::begin_frame(ui.ctx());
         let mut commands = Commands::new();
         let hand = steps::hand(ui.ctx());
@@ -276,6 +280,7 @@ impl App {
                 self.bench.pinned = keep.then(|| crew.studies.bench.pinned(&self.view.scenario));
             }
             Command::SetDark(dark) => self.view.dark = Some(dark),
+            Command::Speak(language) => self.view.language = Some(language),
             Command::SetContrast(contrast) => self.view.contrast = Some(contrast),
             Command::FollowSystem => (self.view.dark, self.view.contrast) = (None, None),
             Command::SetProjector(large) => self.view.projector = large,

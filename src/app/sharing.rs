@@ -5,14 +5,14 @@ use super::lessons::course;
 use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
-use crate::app::text::{fill, reworded, tr};
+use crate::app::text::{Language, fill, reworded, tr};
 
 /// Name of saved files.
 const FILE_NAME: &str = "harvester-scenario.json";
 /// A file larger than this is no scenario.
 const LARGEST_FILE: usize = 1 << 20;
 /// What belongs to the room and the eyes, and not into a file.
-const LOOKS: [&str; 4] = ["dark", "contrast", "projector", "beam_moves"];
+const LOOKS: [&str; 5] = ["lang", "dark", "contrast", "projector", "beam_moves"];
 
 /// What only the browser can do.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,10 @@ pub enum Errand {
     Sound(Vec<f32>),
     /// Ask for a file, and pass it to [`App::open_file`].
     Open,
+    /// Fetch what this language needs, and pass it to [`App::learn`].
+    Fetch(Language),
+    /// Have the page's own markup in this language, with these texts by their English ones, as JSON.
+    Speak(Language, String),
 }
 
 /// Whether a file of this name and contents is meant as a scenario; it holds measured data otherwise.

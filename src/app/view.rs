@@ -10,7 +10,7 @@ use self::design::DesignView;
 use self::live::LiveView;
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
-use crate::app::text::{fill, marked};
+use crate::app::text::{Language, fill, marked};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::study::curves;
 use crate::jobs::study::sweep::COUNTS;
@@ -193,6 +193,9 @@ pub struct View {
     pub tab: Tab,
     /// Dark or light; the system's choice when absent.
     pub dark: Option<bool>,
+    /// The language of the texts; the browser's choice when absent.
+    #[serde(rename = "lang")]
+    pub language: Option<Language>,
     /// High contrast or not; the system's choice when absent.
     pub contrast: Option<bool>,
     /// Large type for the lecture room.
@@ -228,6 +231,7 @@ impl Default for View {
             scenario: figures::figure(9).and_then(Figure::scenario).unwrap_or_default(),
             tab: Tab::Explore,
             dark: None,
+            language: None,
             contrast: None,
             projector: false,
             map: MapWindow::First,
@@ -309,8 +313,8 @@ impl View {
 
     /// The same, looking like `other`: what suits the room and the eyes, and belongs to no scenario.
     pub(super) fn with_looks_of(self, other: &Self) -> Self {
-        let Self { dark, contrast, projector, beam_moves, .. } = *other;
-        Self { dark, contrast, projector, beam_moves, ..self }
+        let Self { dark, contrast, language, projector, beam_moves, .. } = *other;
+        Self { dark, contrast, language, projector, beam_moves, ..self }
     }
 
     /// What an earlier session stored, and a sentence about it when it cannot be used.

@@ -8,9 +8,32 @@ use super::provenance::SYMBOLS;
 use super::{Figure, Provenance, svg};
 use crate::model::Parameter;
 
+/// The report's own words, in the language of the rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Words {
+    /// The language (ISO 639).
+    pub language: &'static str,
+    /// Before the headline, in the title.
+    pub report: &'static str,
+    /// Before limits that are broken.
+    pub beyond: &'static str,
+    /// Before limits that are kept.
+    pub within: &'static str,
+    /// Heading of the device.
+    pub device: &'static str,
+    /// Heading of the dimensionless numbers.
+    pub dimensionless: &'static str,
+    /// Names of the parameters, in the order of [`Parameter::ALL`].
+    pub parameters: [&'static str; 10],
+    /// Modes and force law.
+    pub model: String,
+}
+
 /// What a report says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
+    /// Its own words.
+    pub words: Words,
     /// What the motion is, in a few words.
     pub headline: String,
     /// What it gives.
@@ -58,16 +81,19 @@ pub fn html(report: &Report) -> String {
     let mut out = String::with_capacity(1 << 17);
     let _ = write!(
         out,
-        "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Harvester report: {}</title>\n\
+        "<!DOCTYPE html>\n<html lang=\"{}\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}: {}</title>\n\
          <style>{}</style>\n</head>\n<body>\n<header>\n<div>\n<h1>{}</h1>\n",
+        report.words.language,
+        escape(report.words.report),
         escape(&report.headline),
         escape(STYLE).replace("&gt;", ">"),
         escape(&report.headline)
     );
     paragraph(&mut out, "", &report.facts.join(" · "));
     paragraph(&mut out, " class=\"weak\"", &report.remarks.join(" · "));
-    for (holds, class, word) in [(false, " class=\"bad\"", "Beyond a limit"), (true, "", "Within the limits")]
+    for (holds, class, word) in
+        [(false, " class=\"bad\"", report.words.beyond), (true, "", report.words.within)]
     {
         let checks = report.limits.iter().filter(|(_, kept)| *kept == holds);
         let checks: Vec<&str> = checks.map(|(text, _)| text.as_str()).collect();
@@ -79,19 +105,21 @@ pub fn html(report: &Report) -> String {
     if let Some((side, modules)) = &report.code {
         code(&mut out, *side, modules);
     }
-    out.push_str(
-        "</header>\n<div class=\"tables\">\n<section>\n<h2>Device</h2>\n<div class=\"device\">\n<table>\n",
-    );
+    out.push_str("</header>\n<div class=\"tables\">\n<section>\n");
+    heading(&mut out, report.words.device);
+    out.push_str("<div class=\"device\">\n<table>\n");
     for [name, symbol, value] in &report.device {
         row(&mut out, name, symbol, value);
     }
-    out.push_str("</table>\n</div>\n</section>\n<section>\n<h2>Dimensionless</h2>\n<table>\n");
-    for (parameter, symbol) in Parameter::ALL.iter().zip(SYMBOLS) {
+    out.push_str("</table>\n</div>\n</section>\n<section>\n");
+    heading(&mut out, report.words.dimensionless);
+    out.push_str("<table>\n");
+    for ((parameter, symbol), name) in Parameter::ALL.iter().zip(SYMBOLS).zip(report.words.parameters) {
         let value = parameter.get(&report.provenance.scenario.parameters);
-        row(&mut out, name(*parameter), symbol, &typographic(&exact(value)));
+        row(&mut out, name, symbol, &typographic(&exact(value)));
     }
     out.push_str("</table>\n");
-    paragraph(&mut out, " class=\"weak\"", &report.provenance.model());
+    paragraph(&mut out, " class=\"weak\"", &report.words.model);
     out.push_str("\n</section>\n</div>\n<div class=\"plots\">\n");
     for (number, plot) in report.plots.iter().enumerate() {
         // Identifiers are of the whole page here.
@@ -116,20 +144,8 @@ fn row(out: &mut String, name: &str, symbol: &str, value: &str) {
     let _ = writeln!(out, "<tr><td>{name}</td><td>{symbol}</td><td>{value}</td></tr>");
 }
 
-/// What the ten numbers are.
-const fn name(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::Alpha => "damping",
-        Parameter::Beta => "excitation",
-        Parameter::Omega => "frequency",
-        Parameter::C0 => "magnet strength",
-        Parameter::D => "gap",
-        Parameter::H => "magnet length",
-        Parameter::Eta => "tip mass",
-        Parameter::C => "capacitance, V⁻²",
-        Parameter::Kappa => "conductance, V⁻²",
-        Parameter::Theta => "coupling, V⁻¹",
-    }
+fn heading(out: &mut String, text: &str) {
+    let _ = writeln!(out, "<h2>{}</h2>", escape(text));
 }
 
 fn code(out: &mut String, side: usize, modules: &[(usize, usize)]) {

@@ -3,6 +3,8 @@
 use wasm_bindgen::JsCast as _;
 use wasm_bindgen::prelude::Closure;
 
+use crate::app::text::Language;
+
 /// The address of the whole page, without query and fragment; nothing where it cannot be read.
 pub(super) fn base() -> String {
     let href = web_sys::window().and_then(|window| window.location().href().ok()).unwrap_or_default();
@@ -17,6 +19,29 @@ pub(super) fn search() -> String {
 /// The fragment with its `#`, or nothing.
 pub(super) fn fragment() -> String {
     web_sys::window().and_then(|window| window.location().hash().ok()).unwrap_or_default()
+}
+
+/// The language that the address asks for (`?lang=de`), which is taken out of it: what is chosen later holds after a reload.
+pub(super) fn take_language() -> Option<Language> {
+    let window = web_sys::window()?;
+    let search = window.location().search().ok()?;
+    let asked = |part: &&str| part.starts_with("lang=");
+    let parts = || search.trim_start_matches('?').split('&');
+    let language = Language::of_tag(parts().find(asked)?.trim_start_matches("lang="));
+    let rest: Vec<&str> = parts().filter(|part| !asked(part)).collect();
+    let path = window.location().pathname().unwrap_or_default();
+    let search = if rest.is_empty() { String::new() } else { format!("?{}", rest.join("&")) };
+    let address = path + &search + &fragment();
+    // Where the browser refuses, the address keeps asking.
+    let _ = window.history().ok()?.replace_state_with_url(&wasm_bindgen::JsValue::NULL, "", Some(&address));
+    language
+}
+
+/// The language in which the page's script has begun.
+pub(super) fn page_language() -> Language {
+    let root = web_sys::window().and_then(|window| window.document()?.document_element());
+    let tag = root.and_then(|root| root.get_attribute("lang")).unwrap_or_default();
+    Language::of_tag(&tag).unwrap_or_default()
 }
 
 /// Calls `changed` whenever the fragment changes by hand, by a link or by the back button.

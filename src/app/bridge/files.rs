@@ -7,6 +7,8 @@ use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Url};
 
 use super::shell;
 use crate::app::sharing::Errand;
+use crate::app::speaking::Words;
+use crate::app::text::Language;
 
 /// The element that opens the dialog; tests find it by this.
 const INPUT: &str = "open-file";
@@ -27,6 +29,14 @@ pub(super) fn run(errand: &Errand) {
             Some(())
         }
         Errand::Open => open(),
+        Errand::Fetch(language) => {
+            wasm_bindgen_futures::spawn_local(learn(*language));
+            Some(())
+        }
+        Errand::Speak(language, words) => {
+            shell::speak(language.code(), words);
+            Some(())
+        }
     };
 }
 
@@ -42,6 +52,32 @@ async fn picture(name: String, drawing: String, scale: u8) {
             app.tell("This browser could not make the picture. SVG and CSV need no help of it.")
         });
     }
+}
+
+/// Fetches what a language needs.
+async fn learn(language: Language) {
+    let words = words(language).await;
+    let context = super::context();
+    super::change(|app, _| {
+        if let Some(context) = context {
+            app.learn(&context, language, words);
+        }
+    });
+}
+
+async fn words(language: Language) -> Option<Words> {
+    let catalogue = fetch(&format!("text-{}", language.code())).await?;
+    let font = match language {
+        Language::Chinese => Some(fetch("font-zh").await?),
+        Language::English | Language::German => None,
+    };
+    Some(Words { catalogue, font })
+}
+
+/// A file of this build, by the name under which the page lists it.
+async fn fetch(name: &str) -> Option<Vec<u8>> {
+    let bytes = wasm_bindgen_futures::JsFuture::from(shell::fetch_listed(name)).await.ok()?;
+    Some(js_sys::Uint8Array::new(&bytes).to_vec())
 }
 
 fn save(name: &str, kind: &str, text: &str) -> Option<()> {

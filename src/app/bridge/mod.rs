@@ -118,6 +118,11 @@ fn change(with: impl FnOnce(&mut App, &mut storage::Keeper)) {
     });
 }
 
+/// The context of the running app.
+fn context() -> Option<egui::Context> {
+    RUNNING.with_borrow(|slot| slot.as_ref().map(|running| running.context.clone()))
+}
+
 /// Shows what the address asks for.
 fn open_address() {
     change(|app, keeper| {
@@ -149,7 +154,12 @@ impl Page {
         let keeper = if embedded { storage::Keeper::absent() } else { storage::Keeper::open() };
         let crew = crew(context.clone());
         let mut app = App::new(context, keeper.stored(), Rc::clone(&crew));
+        app.prefer_language(address::page_language());
+        let asked = address::take_language();
         app.set_address(address::base());
+        if let Some(language) = asked {
+            app.choose_language(language);
+        }
         app.embed(&search);
         let contrast = around::Contrast::watch(context);
         app.set_system_contrast(contrast.is_wished());
@@ -193,7 +203,8 @@ impl eframe::App for Page {
         }
         let errands = self.app.borrow_mut().take_errands();
         errands.iter().for_each(files::run);
-        if !self.shown {
+        // In the language chosen from the first picture on.
+        if !self.shown && !self.app.borrow().awaits_words() {
             self.shown = true;
             shell::ready();
         }

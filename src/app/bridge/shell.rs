@@ -18,6 +18,14 @@ extern "C" {
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn fail(title: &str, detail: &str);
 
+    /// Has the page's markup in the language of this code, with these texts by their English ones, as JSON.
+    #[wasm_bindgen(js_namespace = harvesterShell)]
+    pub(super) fn speak(code: &str, words: &str);
+
+    /// The bytes of a file that the page lists under this name (a `meta` element).
+    #[wasm_bindgen(js_namespace = harvesterShell, js_name = fetchListed)]
+    pub(super) fn fetch_listed(name: &str) -> Promise;
+
     /// Tells what the native controls mirror has changed to, as JSON.
     #[wasm_bindgen(js_namespace = harvesterShell)]
     pub(super) fn changed(mirror: &str);

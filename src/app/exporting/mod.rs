@@ -97,7 +97,7 @@ impl App {
     /// The plots that the page shows of `view`: as they are in `page`, or as they are at first.
     fn figures(&self, view: &View, page: Option<&Egui>) -> Vec<Figure> {
         let hidden = Egui::default();
-        fonts::install(&hidden);
+        fonts::install(&hidden, self.speech.ideographs.as_ref());
         let mut size = vec2(REPORT_PAGE[0], REPORT_PAGE[1]);
         let (mut time, mut frames) = (0.0, SETTLING);
         if let Some(page) = page {

@@ -6,7 +6,7 @@ use crate::app::panels::device;
 use crate::app::reading::Reading;
 use crate::app::session::Status;
 use crate::app::sharing::Errand;
-use crate::app::text::{tr, within};
+use crate::app::text::{fill, language, tr, within};
 use crate::app::view::design::Page;
 use crate::app::view::{Panel, Tab, View};
 use crate::app::widgets::number::{exact, round_significant, typographic};
@@ -14,10 +14,11 @@ use crate::app::widgets::qr_modules;
 use crate::app::{App, bench};
 use crate::dynamics::Outcome;
 use crate::export::Figure;
-use crate::export::report::{Report, html};
+use crate::export::report::{Report, Words, html};
 use crate::jobs::study::Study as _;
 use crate::model::limits::Standing;
-use crate::model::{Demand, Dimension};
+use crate::model::{Demand, Dimension, ForceLaw};
+use crate::scenario::Scenario;
 
 /// Height over width of a plot in a report.
 const REPORT_ASPECT: f64 = 0.42;
@@ -60,6 +61,7 @@ impl App {
             plots.push(figures);
         }
         Some(Report {
+            words: self.report_words(),
             headline: reading.headline,
             facts: reading.facts,
             remarks: reading.remarks,
@@ -69,6 +71,30 @@ impl App {
             code: qr_modules(&provenance.link),
             provenance,
         })
+    }
+
+    fn report_words(&self) -> Words {
+        Words {
+            language: language().code(),
+            report: tr("Harvester report"),
+            beyond: tr("Beyond a limit"),
+            within: tr("Within the limits"),
+            device: tr("Device"),
+            dimensionless: tr("Dimensionless"),
+            parameters: [
+                tr("damping"),
+                tr("excitation"),
+                tr("frequency"),
+                tr("magnet strength"),
+                tr("gap"),
+                tr("magnet length"),
+                tr("tip mass"),
+                tr("capacitance, V⁻²"),
+                tr("conductance, V⁻²"),
+                tr("coupling, V⁻¹"),
+            ],
+            model: model_in_words(&self.view.scenario),
+        }
     }
 
     /// The limits that apply to the motion in view, and whether each is kept.
@@ -119,4 +145,17 @@ fn device_rows(view: &View) -> Vec<[String; 3]> {
         format!("{} g", typographic(&exact(round_significant(found.acceleration(), 4)))),
     ]);
     rows
+}
+
+/// Modes and force law for a report.
+fn model_in_words(scenario: &Scenario) -> String {
+    let law = match scenario.model.force {
+        ForceLaw::Quadratic => tr("quadratic").to_owned(),
+        ForceLaw::Taylor(order) => fill("Taylor (order {order})", &[("order", &order)]),
+        ForceLaw::Exact => tr("exact").to_owned(),
+    };
+    match scenario.model.modes {
+        1 => fill("1 mode, {law} magnet force", &[("law", &law)]),
+        modes => fill("{modes} modes, {law} magnet force", &[("modes", &modes), ("law", &law)]),
+    }
 }

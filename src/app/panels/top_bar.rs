@@ -6,7 +6,7 @@ use super::{Context, share, shortcuts};
 use crate::app::command::Command;
 use crate::app::panels::computing;
 use crate::app::session::Status;
-use crate::app::text::tr;
+use crate::app::text::{self, Language, tr};
 use crate::app::view::Tab;
 use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, sign, tabs};
 use crate::app::{fonts, theme};
@@ -76,6 +76,7 @@ fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str
 }
 
 fn switches(context: &mut Context<'_>, ui: &mut Ui) {
+    languages(context, ui);
     choose_theme(context, ui);
     let large = context.view.projector;
     let label = if large { tr("Normal type") } else { tr("Large type for a projector") };
@@ -114,6 +115,19 @@ fn choose_theme(context: &mut Context<'_>, ui: &mut Ui) {
         let mut contrast = tokens.contrast;
         if ui.checkbox(&mut contrast, tr("High contrast")).clicked() {
             commands.push(Command::SetContrast(contrast));
+        }
+    });
+}
+
+/// The languages, each by its own name.
+fn languages(context: &mut Context<'_>, ui: &mut Ui) {
+    let button = icon_button(ui, Icon::Globe, tr("Language"));
+    let popup = Popup::menu(&button).accessible_name(tr("Language"));
+    popup.show(|ui| {
+        for language in Language::ALL {
+            if ui.radio(language == text::language(), language.own_name()).clicked() {
+                context.commands.push(Command::Speak(language));
+            }
         }
     });
 }

@@ -201,7 +201,10 @@ mod tests {
         ] {
             said.push(error.to_string());
         }
-        install(Language::German, include_str!("../../../assets/text/de.json")).expect("a catalogue");
+        let catalogue: std::collections::BTreeMap<&str, String> =
+            SENTENCES.iter().map(|sentence| (*sentence, format!("» {sentence}"))).collect();
+        let catalogue = serde_json::to_string(&catalogue).expect("plain texts");
+        install(Language::German, &catalogue).expect("a catalogue");
         let unknown: Vec<String> = said.into_iter().filter(|text| reworded(text) == *text).collect();
         reset();
         assert_eq!(unknown, Vec::<String>::new());

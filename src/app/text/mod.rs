@@ -5,8 +5,8 @@
 
 mod core;
 mod language;
+pub mod page;
 
-use std::borrow::Cow;
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::fmt::Display;
@@ -48,15 +48,22 @@ pub fn speak(language: Language) -> bool {
     is_known(language)
 }
 
-/// Reads the catalogue of a language and speaks it from now on.
+/// Reads the catalogue of a language, which can be spoken from now on.
 ///
 /// # Errors
-/// What is wrong with the catalogue; the language spoken stays then.
-pub fn install(language: Language, json: &str) -> Result<(), String> {
-    let catalogue: Catalogue = serde_json::from_str(json).map_err(|error| error.to_string())?;
+/// What is wrong with the catalogue.
+pub fn learn(language: Language, json: &[u8]) -> Result<(), String> {
+    let catalogue: Catalogue = serde_json::from_slice(json).map_err(|error| error.to_string())?;
     let mut read = READ.get();
     read[language as usize] = Some(Box::leak(Box::new(catalogue)));
     READ.set(read);
+    Ok(())
+}
+
+/// Reads a catalogue and speaks it.
+#[cfg(test)]
+pub(crate) fn install(language: Language, json: &str) -> Result<(), String> {
+    learn(language, json.as_bytes())?;
     speak(language);
     Ok(())
 }
@@ -76,12 +83,6 @@ fn look_up(english: &str) -> Option<&'static str> {
 #[must_use]
 pub fn tr(english: &'static str) -> &'static str {
     look_up(english).unwrap_or(english)
-}
-
-/// The same for a text of the page's own markup.
-#[must_use]
-pub fn of_page(english: &str) -> Cow<'static, str> {
-    look_up(english).map_or_else(|| Cow::Owned(english.to_owned()), Cow::Borrowed)
 }
 
 /// A text with values: each `{name}` of the translation is replaced by the value of that name, in any order.

@@ -29,7 +29,7 @@ pub(in crate::app) struct Node {
 impl Harness {
     pub(in crate::app) fn new(width: f32, height: f32) -> Self {
         let context = egui::Context::default();
-        fonts::install(&context);
+        fonts::install(&context, None);
         theme::apply(&context, &theme::DARK);
         context.enable_accesskit();
         Self { context, size: vec2(width, height), time: 0.0, nodes: Vec::new() }

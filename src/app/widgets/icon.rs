@@ -41,6 +41,8 @@ pub enum Icon {
     Share,
     /// Two sheets: copy.
     Copy,
+    /// A globe: choose a language.
+    Globe,
     /// Three lines: menu.
     Menu,
     /// A head pointing right: folded.
@@ -140,6 +142,18 @@ pub fn paint(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
             let sheet = |x: f32, y: f32| Rect::from_min_max(at(x, y), at(x + 1.05, y + 1.2));
             painter.rect_stroke(sheet(-0.25, -0.4), CornerRadius::same(2), stroke, egui::StrokeKind::Middle);
             line(&[(-0.5, 0.35), (-0.8, 0.35), (-0.8, -0.85), (0.3, -0.85), (0.3, -0.65)]);
+        }
+        Icon::Globe => {
+            let ring = |width: f32| {
+                let points = (0..24).map(|i| {
+                    let angle = TAU * i as f32 / 24.0;
+                    at(0.9 * width * angle.cos(), 0.9 * angle.sin())
+                });
+                painter.add(Shape::closed_line(points.collect(), stroke));
+            };
+            ring(1.0);
+            ring(0.42);
+            line(&[(-0.9, 0.0), (0.9, 0.0)]);
         }
         Icon::Menu => [-0.55, 0.0, 0.55].into_iter().for_each(|y| line(&[(-0.75, y), (0.75, y)])),
         Icon::ChevronRight => line(&[(-0.25, -0.5), (0.25, 0.0), (-0.25, 0.5)]),

@@ -1,0 +1,87 @@
+//! The language of the page: chosen by the reader, else by the browser; fetched when it is chosen.
+
+use std::sync::Arc;
+
+use egui::epaint::text::FontData;
+
+use super::sharing::Errand;
+use super::text::{self, Language, fill, marked, page};
+use super::{App, fonts};
+
+/// What is known of languages beside the view.
+#[derive(Default)]
+pub(super) struct Speech {
+    /// The browser's.
+    preferred: Language,
+    /// The one asked for last.
+    asked: Option<Language>,
+    /// The Chinese font, once it was needed.
+    pub ideographs: Option<Arc<FontData>>,
+}
+
+/// What a language needs beside the page.
+pub struct Words {
+    /// The catalogue.
+    pub catalogue: Vec<u8>,
+    /// A font, if its letters are not among those that are always there.
+    pub font: Option<Vec<u8>>,
+}
+
+/// The name of a language in English.
+fn name(language: Language) -> &'static str {
+    match language {
+        Language::English => marked("English"),
+        Language::German => marked("German"),
+        Language::Chinese => marked("Chinese"),
+    }
+}
+
+impl App {
+    /// Tells in which language the browser's user reads.
+    pub fn prefer_language(&mut self, language: Language) {
+        self.speech.preferred = language;
+    }
+
+    /// Chooses a language as by hand.
+    pub fn choose_language(&mut self, language: Language) {
+        self.view.language = Some(language);
+    }
+
+    /// Whether texts are still in another language than the one chosen.
+    pub fn awaits_words(&self) -> bool {
+        self.speech.asked.is_some_and(|asked| !text::is_known(asked)) && self.notice.is_none()
+    }
+
+    /// Speaks the language chosen, or has its words fetched.
+    pub(super) fn find_words(&mut self) {
+        let language = self.view.language.unwrap_or(self.speech.preferred);
+        if self.speech.asked == Some(language) {
+            return;
+        }
+        self.speech.asked = Some(language);
+        if text::speak(language) {
+            self.errands.push(Errand::Speak(language, page::words()));
+        } else {
+            self.errands.push(Errand::Fetch(language));
+        }
+    }
+
+    /// Takes in what was fetched; says so when that failed, and leaves the texts as they are.
+    pub fn learn(&mut self, context: &egui::Context, language: Language, words: Option<Words>) {
+        let learnt = words.and_then(|words| {
+            text::learn(language, &words.catalogue).ok()?;
+            if let Some(font) = words.font {
+                self.speech.ideographs = Some(Arc::new(FontData::from_owned(font)));
+                fonts::install(context, self.speech.ideographs.as_ref());
+            }
+            Some(())
+        });
+        if learnt.is_none() {
+            let sentence = marked("{language} could not be loaded. The texts stay as they are.");
+            self.errands.push(Errand::Speak(text::language(), page::words()));
+            self.notice = Some(fill(sentence, &[("language", &text::tr(name(language)))]));
+        } else if self.speech.asked == Some(language) {
+            self.speech.asked = None;
+        }
+    }
+}
