@@ -29,7 +29,7 @@ fn end_time(system: &ReducedSystem) -> f64 {
 fn ours(system: &ReducedSystem, tolerance: f64) -> Vec<f64> {
     let initial = vec![0.0; system.dimension()];
     let mut run = Collocation::new(system, &initial, Settings { tolerance }).expect("from rest");
-    run.advance(end_time(system), usize::MAX, |_| ()).expect("a resolvable motion");
+    run.advance(end_time(system), usize::MAX, &mut |_| ()).expect("a resolvable motion");
     run.state().to_vec()
 }
 

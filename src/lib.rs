@@ -2,16 +2,20 @@
 //! a second, fixed magnet (Zhang & Zhang, "Secondary Resonance Energy Harvesting with Quadratic Nonlinearity",
 //! Materials 2020, 13(15), 3389).
 //!
-//! * [`model`], [`theory`], [`dynamics`], [`jobs`] and [`scenario`] are the solver core, a package of its own, so that it
-//!   builds without the rest and compiles for speed while the page compiles for size.
+//! * [`model`], [`theory`] and [`dynamics`] are the solver core, a package of its own, so that it builds without the rest
+//!   and is compiled for speed while the page is compiled for size.
+//! * [`jobs`] is the one request and answer type that the page, JavaScript and the native command share.
+//! * [`scenario`] is everything a view depends on, as stored and shared.
 //! * [`export`] writes plots as SVG and CSV, a report as HTML, and a question as a program.
 //! * `app` (feature `app`) is the egui front end; it draws what the other modules computed.
 //!
 //! Dependencies point one way: app -> export, jobs -> dynamics, theory -> model.
 
-pub use harvester_solver::{dynamics, jobs, model, scenario, theory};
+pub use harvester_solver::{dynamics, model, theory};
 
 pub mod export;
+pub mod jobs;
+pub mod scenario;
 
 #[cfg(feature = "app")]
 pub mod app;

@@ -10,15 +10,11 @@
 //!   coupled-mode boundary that keeps the electrical circuit the published ones leave out.
 //! * [`dynamics`] integrates: the classical Runge-Kutta run of the paper, and an error-controlled exponential
 //!   collocation that does the same run a thousand times faster.
-//! * [`jobs`] is the one request and answer type that the page, JavaScript and the native command share.
-//! * [`scenario`] is everything a view depends on, as stored and shared.
 //!
-//! Dependencies point one way: jobs -> dynamics, theory -> model. Everything is dimensionless unless a docstring names
+//! Dependencies point one way: dynamics, theory -> model. Everything is dimensionless unless a docstring names
 //! a unit; time is counted in units of `sqrt(m_b L^3 / (E I))`, lengths in units of the beam's length, voltages in
 //! volts.
 
 pub mod dynamics;
-pub mod jobs;
 pub mod model;
-pub mod scenario;
 pub mod theory;

@@ -58,7 +58,7 @@ impl Balance {
         let mut integrator = Collocation::new(system, state, Settings { tolerance: TOLERANCE })?;
         let mut reader = Reader::new(system);
         let outcome = loop {
-            let outcome = integrator.advance(end, usize::MAX, |step| reader.record(step))?;
+            let outcome = integrator.advance(end, usize::MAX, &mut |step| reader.record(step))?;
             if let Some(outcome) = outcome {
                 break outcome;
             }

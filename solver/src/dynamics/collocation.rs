@@ -199,7 +199,7 @@ impl Collocation {
         &mut self,
         t_end: f64,
         most_steps: usize,
-        mut observer: impl FnMut(&Step<'_>),
+        observer: &mut dyn FnMut(&Step<'_>),
     ) -> Result<Option<Outcome>, IntegrationError> {
         for _ in 0..most_steps {
             if self.steps > SPARE_STEPS + MOST_SHORTENED * self.coarsest as u64 * self.periods {

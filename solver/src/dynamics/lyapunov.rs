@@ -216,7 +216,7 @@ impl Lyapunov {
     pub fn advance(&mut self, periods: usize) -> Result<Progress, IntegrationError> {
         let target = self.tangents.growth()[0].len() + periods;
         while self.ended.is_none() && self.tangents.growth()[0].len() < target {
-            self.ended = self.integrator.advance(f64::INFINITY, 1, |step| self.tangents.record(step))?;
+            self.ended = self.integrator.advance(f64::INFINITY, 1, &mut |step| self.tangents.record(step))?;
         }
         Ok(match self.ended {
             Some(outcome) => Progress::Ended(outcome),

@@ -79,7 +79,7 @@ impl Ongoing {
                 break;
             }
             let present = &mut self.present;
-            self.outcome = self.integrator.advance(f64::INFINITY, 1, |step| present.take(step))?;
+            self.outcome = self.integrator.advance(f64::INFINITY, 1, &mut |step| present.take(step))?;
         }
         if self.integrator.time() < time || self.present.start.is_empty() {
             return Ok(self.outcome.map_or(Reach::Later, Reach::Ended));

@@ -108,7 +108,7 @@ impl Search {
             let chunk = left.min(CHUNK);
             left -= chunk;
             let Self { integrator, strobe, instants, record, .. } = self;
-            let outcome = integrator.advance(f64::INFINITY, chunk, |step| {
+            let outcome = integrator.advance(f64::INFINITY, chunk, &mut |step| {
                 if step.index == 0 {
                     strobe.push(step.start);
                     *instants += 1;

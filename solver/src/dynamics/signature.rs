@@ -58,7 +58,7 @@ fn stroboscopic_states(
     let mut states = vec![state.to_vec()];
     let mut integrator = Collocation::new(system, state, Settings::default())?;
     while states.len() < count {
-        let outcome = integrator.advance(f64::INFINITY, CHUNK, |step| {
+        let outcome = integrator.advance(f64::INFINITY, CHUNK, &mut |step| {
             if step.index == 0 && step.time > 0.0 && states.len() < count {
                 states.push(step.start[..state.len()].to_vec());
             }
@@ -123,8 +123,7 @@ impl Recogniser {
 mod tests {
     use super::*;
     use crate::dynamics::{Horizon, reach};
-    use crate::model::ParameterSet;
-    use crate::scenario::ModelChoice;
+    use crate::model::{ModelChoice, ParameterSet};
 
     fn signature(system: &ReducedSystem, initial: &[f64]) -> Signature {
         let reached = reach(system, initial, Horizon::chart(600.0)).expect("a motion");

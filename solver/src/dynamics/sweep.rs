@@ -11,8 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::poincare::{PhasePoint, recurrence};
 use super::summary::Collector;
 use super::{Collocation, IntegrationError, Outcome, Settings};
-use crate::model::{ModelError, Parameter, ReducedSystem};
-use crate::scenario::Scenario;
+use crate::model::{ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem};
 
 /// How many times longer the transient of a value that starts from the sweep's own start may take.
 pub const SETTLING: usize = 5;
@@ -77,27 +76,28 @@ pub struct SweepPoint {
     pub restarted: bool,
 }
 
-/// Visits `values` of `parameter` in their order, starting from `state` (length 2N + 1), or from the scenario's own
-/// start. Returns the points and the state in which the last one ended, unless that ended early.
+/// Visits `values` of `parameter` in their order, everything else being as in `set` and `model`, from `state` (length
+/// 2N + 1), or from `start` (of that length) where no motion is carried over. Returns the points and the state in which the last one ended, unless that ended early.
 ///
 /// # Errors
 /// [`SweepError`] when a value is out of range or its motion cannot be resolved.
 pub fn sweep(
-    scenario: &Scenario,
+    set: &ParameterSet,
+    model: ModelChoice,
+    start: &[f64],
     parameter: Parameter,
     values: &[f64],
     state: Option<&[f64]>,
     dwell: Dwell,
 ) -> Result<(Vec<SweepPoint>, Option<Vec<f64>>), SweepError> {
-    let (_, start) = scenario.validate()?;
     let mut carried = state.map(<[f64]>::to_vec);
     let mut points = Vec::with_capacity(values.len());
     for value in values {
-        let mut set = scenario.parameters;
+        let mut set = *set;
         *parameter.get_mut(&mut set) = *value;
         let restarted = carried.is_none();
-        let from = carried.as_ref().unwrap_or(&start);
-        let held = match scenario.model.system(set) {
+        let from = carried.as_ref().map_or(start, Vec::as_slice);
+        let held = match model.system(set) {
             Ok(system) => {
                 let longer = Dwell { discarded: SETTLING * dwell.discarded, ..dwell };
                 hold(&system, from, if restarted { longer } else { dwell })?
@@ -158,7 +158,7 @@ fn hold(system: &ReducedSystem, from: &[f64], dwell: Dwell) -> Result<Held, Inte
     let mut strobe: Vec<PhasePoint> = Vec::with_capacity(dwell.kept);
     let last = system.dimension() - 1;
     let outcome = loop {
-        let outcome = integrator.advance(end, usize::MAX, |step| {
+        let outcome = integrator.advance(end, usize::MAX, &mut |step| {
             if step.index == 0 && step.time > begin - 0.5 * period {
                 let state = &step.start[..=last];
                 strobe.push(PhasePoint { v: state[last], dv_dt: system.voltage_rate(state) });

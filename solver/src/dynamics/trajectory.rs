@@ -36,7 +36,7 @@ impl Trajectory {
         let mut integrator = Collocation::new(system, initial, settings)?;
         let mut recorder = Self::recorder(&integrator);
         loop {
-            let outcome = integrator.advance(t_end, usize::MAX, |step| recorder.record(step))?;
+            let outcome = integrator.advance(t_end, usize::MAX, &mut |step| recorder.record(step))?;
             if let Some(outcome) = outcome {
                 recorder.finish(&integrator, outcome);
                 return Ok(recorder);

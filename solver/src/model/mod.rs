@@ -1,5 +1,6 @@
 //! Section 2 of the paper, in its order: device, parameters, magnet, modes, the reduced system.
 
+pub mod choice;
 pub mod device;
 pub mod dimension;
 pub mod eigenvalues;
@@ -17,6 +18,7 @@ pub mod quadrature;
 pub mod reduced;
 pub mod units;
 
+pub use choice::ModelChoice;
 pub use device::{Device, ElectricalScaling};
 pub use dimension::Dimension;
 pub use error::ModelError;

@@ -3,42 +3,17 @@
 use serde::{Deserialize, Serialize};
 
 use crate::model::{
-    Device, ElectricalScaling, ForceLaw, MAX_MODES, ModelError, ParameterSet, Parameters, ReducedSystem,
-    Units, state_dimension,
+    Device, ElectricalScaling, MAX_MODES, ModelError, ParameterSet, Parameters, ReducedSystem, Units,
+    state_dimension,
 };
+
+pub use crate::model::ModelChoice;
 
 /// Version written by this program; older ones are read.
 pub const VERSION: u32 = 2;
 
 /// Smallest and largest end time of a run (dimensionless).
 pub const END_TIME: (f64, f64) = (1.0, 5000.0);
-
-/// Which truncation is used.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
-#[serde(default, deny_unknown_fields)]
-pub struct ModelChoice {
-    /// Number of modes N, 1 to 8.
-    pub modes: usize,
-    /// Law of the magnets' rest force.
-    pub force: ForceLaw,
-}
-
-impl Default for ModelChoice {
-    /// The paper's: two modes, quadratic force.
-    fn default() -> Self {
-        Self { modes: 2, force: ForceLaw::Quadratic }
-    }
-}
-
-impl ModelChoice {
-    /// The reduced system of `set` under this choice: raw input becomes valid here.
-    ///
-    /// # Errors
-    /// [`ModelError`], naming what is out of range.
-    pub fn system(&self, set: ParameterSet) -> Result<ReducedSystem, ModelError> {
-        ReducedSystem::new(Parameters::new(set)?, self.modes, self.force)
-    }
-}
 
 /// What a page shows: numbers, model, start and duration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
@@ -191,7 +166,7 @@ mod tests {
 
     #[test]
     fn a_scenario_round_trips_through_json() -> Result<(), serde_json::Error> {
-        let model = ModelChoice { modes: 4, force: ForceLaw::Taylor(5) };
+        let model = ModelChoice { modes: 4, force: crate::model::ForceLaw::Taylor(5) };
         let scenario = Scenario { model, initial: Some(vec![0.1; 9]), ..Default::default() };
         assert_eq!(serde_json::from_str::<Scenario>(&serde_json::to_string(&scenario)?)?, scenario);
         Ok(())

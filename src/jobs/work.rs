@@ -9,7 +9,7 @@ use super::motions::MotionPlane;
 use super::response::{ResponseCurve, response};
 use crate::dynamics::curves::{Curve, Line, Start, bifurcations_along_line, trace_curve};
 use crate::dynamics::signature::Signature;
-use crate::dynamics::sweep::{Dwell, SweepPoint};
+use crate::dynamics::sweep::{Dwell, SweepPoint, sweep};
 use crate::dynamics::tongue::{Tongue, Window};
 use crate::dynamics::{Plane, largest_multipliers, trace_tongue};
 use crate::model::Parameter;
@@ -161,9 +161,10 @@ impl Work {
                 omegas.iter().map(column).collect::<Result<_, String>>().map(Finding::Columns)
             }
             Self::Sweep { scenario, parameter, values, state, dwell } => {
-                let (points, state) =
-                    crate::dynamics::sweep::sweep(scenario, *parameter, values, state.as_deref(), *dwell)
-                        .map_err(sentence)?;
+                let (_, start) = scenario.validate().map_err(sentence)?;
+                let (set, model) = (&scenario.parameters, scenario.model);
+                let (points, state) = sweep(set, model, &start, *parameter, values, state.as_deref(), *dwell)
+                    .map_err(sentence)?;
                 Ok(Finding::Sweep { points, state })
             }
             Self::Motions { plane, places } => plane.motions(places).map(Finding::Motions).map_err(sentence),

@@ -115,7 +115,7 @@ impl RunJob {
     pub fn advance(&mut self, steps: usize) -> Result<Option<Run>, RunError> {
         let Some(mut recorder) = self.recorder.take() else { return Ok(None) };
         let outcome =
-            self.integrator.advance(self.t_end, steps, |step| recorder.record(step, &self.system))?;
+            self.integrator.advance(self.t_end, steps, &mut |step| recorder.record(step, &self.system))?;
         let Some(outcome) = outcome else {
             self.recorder = Some(recorder);
             return Ok(None);

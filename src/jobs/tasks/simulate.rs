@@ -114,7 +114,7 @@ impl SimulateRequest {
         let mut integrator = Collocation::new(system, initial, Settings { tolerance: self.tolerance })?;
         let mut trajectory = Trajectory::recorder(&integrator);
         let outcome = loop {
-            let steps = integrator.advance(self.t_end, usize::MAX, |step| trajectory.record(step))?;
+            let steps = integrator.advance(self.t_end, usize::MAX, &mut |step| trajectory.record(step))?;
             if let Some(outcome) = steps {
                 break outcome;
             }
