@@ -134,7 +134,9 @@ fn state(context: &mut Context<'_>, ui: &mut Ui) {
             let at = time(outcome.early_end().unwrap_or_default());
             fill("The tip escaped at t = {time}: this force law lets it go.", &[("time", &at)])
         }
-        (Some(End::Failed(reason)), _) => fill("The run cannot go on: {reason}.", &[("reason", &reworded(reason))]),
+        (Some(End::Failed(reason)), _) => {
+            fill("The run cannot go on: {reason}.", &[("reason", &reworded(reason))])
+        }
         (None, Some(reason)) => fill("Not taken over: {reason}.", &[("reason", &reworded(reason))]),
         (None, None) => return,
     };
