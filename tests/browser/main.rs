@@ -180,6 +180,31 @@ fn says_what_a_frame_costs() {
     page.close();
 }
 
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn says_how_soon_the_first_plot_stands() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    // Looks at every frame, since the page has nothing to say before it is there.
+    page.before_each_load(
+        "const look = () => {
+            const state = window.harvester && document.documentElement.dataset.phase === 'ready'
+                && JSON.parse(window.harvester.state());
+            if (state && state.status === 'done') window.firstPlot = performance.now();
+            else requestAnimationFrame(look);
+        };
+        requestAnimationFrame(look);",
+    );
+    let mut times: Vec<f64> = (0..5)
+        .map(|_| {
+            page.reload();
+            page.wait("the first plot", |page| page.script("return window.firstPlot ?? null;").as_f64())
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!("first plot after navigation: median {:.0} ms, slowest {:.0} ms of 5", times[2], times[4]);
+    page.close();
+}
+
 /// Not a check but a tool: see `scripts/screenshots.sh`.
 #[test]
 #[ignore = "needs the built page and Chromium: scripts/screenshots.sh"]
