@@ -58,8 +58,12 @@ impl App {
         if self.speech.asked == Some(language) {
             return;
         }
-        self.speech.asked = Some(language);
+        let first = self.speech.asked.replace(language).is_none();
         if text::speak(language) {
+            // The page begins in English.
+            if first && language == Language::English {
+                return;
+            }
             self.errands.push(Errand::Speak(language, page::words()));
         } else {
             self.errands.push(Errand::Fetch(language));
@@ -81,7 +85,8 @@ impl App {
             self.errands.push(Errand::Speak(text::language(), page::words()));
             self.notice = Some(fill(sentence, &[("language", &text::tr(name(language)))]));
         } else if self.speech.asked == Some(language) {
-            self.speech.asked = None;
+            text::speak(language);
+            self.errands.push(Errand::Speak(language, page::words()));
         }
     }
 }
