@@ -183,9 +183,11 @@ fn line(ui: &mut Ui, text: &str) {
 /// The best of all loads at the best of all frequencies.
 fn both(context: &mut Context<'_>, ui: &mut Ui) {
     let best = best_frequencies(context);
-    if let Some(table) = context.studies.bench.best.study().filter(|table| !table.finished()) {
+    let unfinished = context.studies.bench.best.study().filter(|table| !table.finished());
+    if let Some(table) = unfinished {
         line(ui, &computing(table.progress()));
     }
+    let finished = unfinished.is_none();
     let place = |frequency: f64, resistance: f64, power: f64| {
         fill(
             "{what} at {hertz} Hz",
@@ -210,10 +212,12 @@ fn both(context: &mut Context<'_>, ui: &mut Ui) {
             ui,
             &fill("stable motions: {text}, period {periods}", &[("text", &text), ("periods", &periods)]),
         );
-        if ui.button(tr("Use both")).clicked() {
+        // Half of a search may be far from the best.
+        if ui.add_enabled(finished, egui::Button::new(tr("Use both"))).clicked() {
             super::harvest::go_to(context, frequency);
             use_load(context, resistance);
         }
+        line(ui, tr("A start at rest may lead to another motion."));
     }
     line(ui, tr("Within the window of frequencies of the page Harvest, at the base's present amplitude."));
 }
