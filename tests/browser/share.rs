@@ -107,7 +107,7 @@ fn what_is_shared_fits_a_phone() {
     press(&mut page, "Share: link");
     for (label, role) in [
         ("Undo", "Button"),
-        ("Dark theme", "Button"),
+        ("Theme", "Button"),
         ("Link to this view", "TextInput"),
         ("QR code of the link", "Button"),
         ("Open file", "Button"),
