@@ -15,7 +15,7 @@ use crate::jobs::design::{Harvest, Operating};
 use crate::model::limits::Standing;
 
 /// Least width of a tile, points.
-const TILE: f32 = 104.0;
+const TILE: f32 = 140.0;
 
 /// Draws the card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {

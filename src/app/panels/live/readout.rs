@@ -12,7 +12,7 @@ use crate::app::widgets::number::{prefix, significant};
 use crate::app::widgets::{Tile, tiles};
 
 /// Least width of a tile, points.
-const TILE: f32 = 104.0;
+const TILE: f32 = 140.0;
 
 /// Time, periods, means and the speed.
 pub(super) fn show(context: &Context<'_>, ui: &mut Ui) {
@@ -48,7 +48,7 @@ pub(super) fn show(context: &Context<'_>, ui: &mut Ui) {
     let speed = short(slower.unwrap_or(asked));
     let pace = match slower {
         Some(_) => fill("{asked} are more than this machine can do", &[("asked", &short(asked))]),
-        None => tr("excitation periods a second").to_owned(),
+        None => tr("periods a second").to_owned(),
     };
     let turns = format!("{:.1}", (10.0 * now.turns).floor() / 10.0);
     let time = format!("{time:.1}");
