@@ -11,13 +11,14 @@ use egui::{Context as Egui, RawInput, Rect, vec2};
 pub(super) use question::request;
 
 use super::App;
+use super::layout::draw;
 use super::panels::Context;
 use super::session::Status;
 use super::sharing::Errand;
 use super::view::{Tab, View};
 use super::widgets::number::exact;
 use super::widgets::recorder;
-use super::{draw, fonts, questions, theme};
+use super::{fonts, questions, theme};
 use crate::app::text::{marked, tr};
 use crate::export::{Figure, Format, Provenance, svg, table};
 

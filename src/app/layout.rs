@@ -1,0 +1,99 @@
+//! The whole page: which parts it has, and where they are at which width.
+
+use egui::{Margin, Ui};
+
+use super::command::Command;
+use super::panels::{self, Context};
+use super::text::tr;
+use super::view::Tab;
+use super::{keyboard, theme, widgets};
+
+/// Width of the left column, of that with units beside the numbers, and page width below which the columns are stacked.
+const COLUMN: f32 = 296.0;
+const WIDE_COLUMN: f32 = 336.0;
+const STACKED: f32 = 760.0;
+
+/// The whole page: bar, notice, column and tab.
+pub(super) fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui) {
+    if let Some(embed) = context.embed {
+        return panels::embedded::show(context, embed, notice, ui);
+    }
+    let tokens = theme::tokens(ui);
+    let bar = egui::Frame::new().fill(tokens.bar).inner_margin(Margin::symmetric(14, 7));
+    egui::Panel::top("bar")
+        .frame(bar)
+        .show_separator_line(false)
+        .show(ui, |ui| panels::top_bar::show(context, ui));
+    let page = egui::Frame::new().fill(tokens.page);
+    if let Some(message) = notice {
+        let frame = page.inner_margin(Margin { left: 14, right: 14, top: 8, bottom: 0 });
+        egui::Panel::top("notice").frame(frame).show_separator_line(false).show(ui, |ui| {
+            draw_notice(context, ui, message);
+        });
+    }
+    panels::lessons::guide(context, ui);
+    if ui.available_width() < STACKED {
+        let page = page.inner_margin(Margin { left: 12, right: 0, top: 10, bottom: 10 });
+        egui::CentralPanel::default().frame(page).show(ui, |ui| {
+            scrolled(ui, |ui| {
+                // A list to choose from needs no sliders above it.
+                if context.view.tab == Tab::Lessons {
+                    return draw_tab(context, ui);
+                }
+                panels::controls::above(context, ui);
+                ui.add_space(8.0);
+                draw_tab(context, ui);
+                ui.add_space(8.0);
+                panels::controls::below(context, ui);
+            });
+        });
+        return;
+    }
+    let column =
+        egui::Frame::new().fill(tokens.bar).inner_margin(Margin { left: 14, right: 0, top: 10, bottom: 10 });
+    egui::Panel::left("controls")
+        .frame(column)
+        .show_separator_line(false)
+        .resizable(false)
+        .exact_size(if context.view.tab == Tab::Design { WIDE_COLUMN } else { COLUMN })
+        .show(ui, |ui| {
+            scrolled(ui, |ui| panels::controls::show(context, ui));
+        });
+    let page = page.inner_margin(Margin { left: 10, right: 0, top: 10, bottom: 10 });
+    egui::CentralPanel::default().frame(page).show(ui, |ui| scrolled(ui, |ui| draw_tab(context, ui)));
+}
+
+/// Contents that scroll when they are too tall, with a margin at the right in which the scroll bar floats.
+fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let margin = Margin { right: 12, ..Margin::ZERO };
+        egui::Frame::new().inner_margin(margin).show(ui, |ui| {
+            keyboard::keep_focus_in_view(ui);
+            contents(ui);
+        });
+    });
+}
+
+fn draw_tab(context: &mut Context<'_>, ui: &mut Ui) {
+    match context.view.tab {
+        Tab::Explore => panels::explore::show(context, ui),
+        Tab::Live => panels::live::show(context, ui),
+        Tab::Stability => panels::stability::show(context, ui),
+        Tab::Sweep => panels::sweep::show(context, ui),
+        Tab::Design => panels::design::show(context, ui),
+        Tab::Paper => panels::paper::show(context, ui),
+        Tab::Lessons => panels::lessons::show(context, ui),
+    }
+}
+
+fn draw_notice(context: &mut Context<'_>, ui: &mut Ui, message: &str) {
+    let tokens = theme::tokens(ui);
+    egui::Frame::new().fill(tokens.card).corner_radius(theme::radius::CARD).inner_margin(10).show(ui, |ui| {
+        ui.horizontal(|ui| {
+            if widgets::icon_button(ui, widgets::Icon::Close, tr("Dismiss")).clicked() {
+                context.commands.push(Command::DismissNotice);
+            }
+            ui.add(egui::Label::new(egui::RichText::new(message).color(tokens.warning)).wrap());
+        });
+    });
+}
