@@ -114,7 +114,12 @@ fn a_finger_scrolls_the_page_around_and_drags_sliders() {
     page.swipe((480.0, 260.0), (480.0, 120.0));
     page.wait("the outer page to scroll", |page| (scrolled(page) > 40.0).then_some(()));
     assert_eq!(page.state()["view"], state["view"], "a swipe is no click");
-    page.script("window.scrollTo(0, 0)");
+    // The browser lets a swipe run out for a while: what comes of it later would count for the slider.
+    page.wait("the outer page to rest", |page| {
+        page.script("window.scrollTo(0, 0)");
+        std::thread::sleep(Duration::from_millis(300));
+        (scrolled(page) == 0.0).then_some(())
+    });
     let slider = page.slider("Frequency");
     page.swipe(slider.at(0.3, 0.5), slider.at(0.7, 0.5));
     page.wait_until("the slider to move", |now| now["view"] != state["view"]);
