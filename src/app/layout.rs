@@ -20,16 +20,11 @@ pub(super) fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui)
     }
     let tokens = theme::tokens(ui);
     let bar = egui::Frame::new().fill(tokens.bar).inner_margin(Margin::symmetric(14, 7));
-    egui::Panel::top("bar")
-        .frame(bar)
-        .show_separator_line(false)
-        .show(ui, |ui| panels::top_bar::show(context, ui));
+    top_panel(ui, "bar", bar, |ui| panels::top_bar::show(context, ui));
     let page = egui::Frame::new().fill(tokens.page);
     if let Some(message) = notice {
         let frame = page.inner_margin(Margin { left: 14, right: 14, top: 8, bottom: 0 });
-        egui::Panel::top("notice").frame(frame).show_separator_line(false).show(ui, |ui| {
-            draw_notice(context, ui, message);
-        });
+        top_panel(ui, "notice", frame, |ui| draw_notice(context, ui, message));
     }
     panels::lessons::guide(context, ui);
     if ui.available_width() < STACKED {
@@ -61,6 +56,21 @@ pub(super) fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui)
         });
     let page = page.inner_margin(Margin { left: 10, right: 0, top: 10, bottom: 10 });
     egui::CentralPanel::default().frame(page).show(ui, |ui| scrolled(ui, |ui| draw_tab(context, ui)));
+}
+
+/// A panel as high as its contents.
+///
+/// egui cuts off what stands below the height it had last. Where a narrower page gives the bar a second row, that would
+/// be the tabs, until something else asks for a picture.
+fn top_panel(ui: &mut Ui, name: &'static str, frame: egui::Frame, contents: impl FnOnce(&mut Ui)) {
+    let panel = egui::Panel::top(name).frame(frame).show_separator_line(false);
+    let height = panel.show(ui, contents).response.rect.height();
+    let id = ui.scope_id().with(name);
+    let last: Option<f32> = ui.data(|data| data.get_temp(id));
+    if last.is_none_or(|last| height > last) {
+        ui.ctx().request_discard("a panel has grown");
+    }
+    ui.data_mut(|data| data.insert_temp(id, height));
 }
 
 /// Contents that scroll when they are too tall, with a margin at the right in which the scroll bar floats.
@@ -96,4 +106,24 @@ fn draw_notice(context: &mut Context<'_>, ui: &mut Ui, message: &str) {
             ui.add(egui::Label::new(egui::RichText::new(message).color(tokens.warning)).wrap());
         });
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::app::rehearsal::Desk;
+    use crate::app::view::Tab;
+
+    #[test]
+    fn tabs_stay_in_sight_in_the_first_picture_of_a_narrower_page() {
+        for (wide, narrow) in [(1440.0, 1000.0), (1440.0, 360.0), (768.0, 360.0)] {
+            let mut desk = Desk::new(wide, 900.0, r#"{"tab":"lessons"}"#);
+            desk.work(3);
+            desk.harness.resize(narrow, 900.0);
+            desk.rest(1);
+            for (_, name) in Tab::NAMED {
+                let seen = desk.harness.texts.iter().find(|(text, _)| text == name);
+                assert!(seen.is_some_and(|(_, share)| *share > 0.99), "{wide} -> {narrow}: {name} {seen:?}");
+            }
+        }
+    }
 }

@@ -99,15 +99,11 @@ impl App {
 
 #[cfg(test)]
 mod tests {
-    use std::cell::RefCell;
-    use std::rc::Rc;
-
     use super::*;
-    use crate::app::crew::{Crew, Inline};
+    use crate::app::rehearsal;
 
     fn app() -> App {
-        let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
-        App::new(&egui::Context::default(), None, crew)
+        rehearsal::app(&egui::Context::default(), None)
     }
 
     fn mirror(app: &App) -> Value {

@@ -33,6 +33,8 @@ pub mod mirror;
 mod panels;
 mod questions;
 mod reading;
+#[cfg(test)]
+mod rehearsal;
 mod report;
 mod session;
 pub mod sharing;

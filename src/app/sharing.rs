@@ -120,19 +120,15 @@ impl App {
 
 #[cfg(test)]
 mod tests {
-    use std::cell::RefCell;
-    use std::rc::Rc;
-
     use super::*;
     use crate::app::command::Command;
-    use crate::app::crew::{Crew, Inline};
     use crate::app::history::Hand;
+    use crate::app::rehearsal;
     use crate::app::view::{Layer, MapWindow};
     use crate::model::Parameter;
 
     fn app() -> App {
-        let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
-        App::new(&egui::Context::default(), None, crew)
+        rehearsal::app(&egui::Context::default(), None)
     }
 
     fn do_it(app: &mut App, command: Command) {

@@ -1,18 +1,14 @@
-use std::cell::RefCell;
-use std::rc::Rc;
-
 use super::*;
 use crate::app::command::Command;
-use crate::app::crew::{Crew, Inline};
 use crate::app::history::Hand;
+use crate::app::rehearsal;
 use crate::app::session::Session;
 use crate::jobs::solve;
 
 /// The page of a link, everything computed, and drawn once.
 fn page(link: &str, size: [f32; 2]) -> (App, Egui) {
     let context = Egui::default();
-    let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
-    let mut app = App::new(&context, None, crew);
+    let mut app = rehearsal::app(&context, None);
     app.set_address("https://example.org/lab/".to_owned());
     app.open_link(link);
     for frame in 0..20_000 {

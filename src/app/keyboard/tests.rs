@@ -1,48 +1,16 @@
 //! The whole app by keyboard, without a window.
 
-use std::cell::RefCell;
 use std::collections::BTreeSet;
-use std::rc::Rc;
 
-use egui::{Event, Key, Modifiers};
+use egui::{Key, Modifiers};
 
-use crate::app::App;
-use crate::app::crew::{Crew, Inline};
+use crate::app::rehearsal::Desk;
 use crate::app::view::{Panel, Tab};
-use crate::app::widgets::harness::Harness;
 
-struct Desk {
-    app: App,
-    harness: Harness,
-}
-
-impl Desk {
-    fn new(width: f32, stored: &str) -> Self {
-        let harness = Harness::new(width, 900.0);
-        let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
-        let mut desk = Self { app: App::new(&harness.context, Some(stored), crew), harness };
-        for _ in 0..20 {
-            desk.app.logic(&desk.harness.context.clone());
-            desk.rest(1);
-        }
-        desk
-    }
-
-    /// A picture; nothing is computed for it.
-    fn frame(&mut self, events: Vec<Event>) {
-        self.harness.frame(events, |ui| self.app.ui(ui));
-    }
-
-    fn rest(&mut self, frames: usize) {
-        (0..frames).for_each(|_| self.frame(Vec::new()));
-    }
-
-    fn press(&mut self, key: Key, modifiers: Modifiers) {
-        for pressed in [true, false] {
-            self.frame(vec![Event::Key { key, physical_key: None, pressed, repeat: false, modifiers }]);
-        }
-        self.rest(1);
-    }
+fn desk(width: f32, stored: &str) -> Desk {
+    let mut desk = Desk::new(width, 900.0, stored);
+    desk.work(20);
+    desk
 }
 
 #[test]
@@ -54,7 +22,7 @@ fn tab_reaches_every_control_of_every_page_and_brings_it_into_view() {
             let stored = format!(
                 r#"{{"scenario":{{"t_end":100}},"tab":"{tab}","beam_moves":false,"design":{{"page":"{page}"}}}}"#
             );
-            let mut desk = Desk::new(width, &stored);
+            let mut desk = desk(width, &stored);
             let (mut reached, mut first) = (BTreeSet::new(), None);
             for step in 0.. {
                 assert!(step < 400, "{tab} {page} at {width}: the focus does not come round");
@@ -87,7 +55,7 @@ fn tab_reaches_every_control_of_every_page_and_brings_it_into_view() {
 
 #[test]
 fn keys_do_what_the_list_says() {
-    let mut desk = Desk::new(1440.0, r#"{"scenario":{"t_end":100}}"#);
+    let mut desk = desk(1440.0, r#"{"scenario":{"t_end":100}}"#);
     let plain = Modifiers::NONE;
     desk.press(Key::Num4, plain);
     assert_eq!(desk.app.view.tab, Tab::Sweep);
@@ -119,7 +87,7 @@ fn keys_do_what_the_list_says() {
 
 #[test]
 fn the_live_run_has_keys_and_leaves_undo_alone() {
-    let mut desk = Desk::new(1440.0, r#"{"scenario":{"t_end":100},"tab":"live"}"#);
+    let mut desk = desk(1440.0, r#"{"scenario":{"t_end":100},"tab":"live"}"#);
     let plain = Modifiers::NONE;
     let turns = |desk: &Desk| desk.app.live.now().map_or(f64::NAN, |(_, _, now)| now.turns);
     let running = turns(&desk);
@@ -156,7 +124,7 @@ fn the_live_run_has_keys_and_leaves_undo_alone() {
 
 #[test]
 fn no_key_is_a_shortcut_while_a_number_is_typed() {
-    let mut desk = Desk::new(1440.0, r#"{"scenario":{"t_end":100}}"#);
+    let mut desk = desk(1440.0, r#"{"scenario":{"t_end":100}}"#);
     let field = desk.harness.find(egui::Role::TextInput, "Damping value").bounds.center();
     let Desk { app, harness } = &mut desk;
     harness.click(field, |ui| app.ui(ui));

@@ -188,17 +188,13 @@ impl App {
 
 #[cfg(test)]
 mod tests {
-    use std::cell::RefCell;
-    use std::rc::Rc;
-
     use super::*;
     use crate::app::command::Command;
-    use crate::app::crew::{Crew, Inline};
     use crate::app::history::Hand;
+    use crate::app::rehearsal;
 
     fn app(stored: Option<&str>) -> App {
-        let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
-        App::new(&egui::Context::default(), stored, crew)
+        rehearsal::app(&egui::Context::default(), stored)
     }
 
     fn act(app: &mut App, action: Action) {

@@ -2,12 +2,14 @@
 
 use egui::{RichText, Ui};
 
+use super::sweep::PARAMETERS;
 use super::{Context, explore, figure_boundaries, figure_panels, tables};
 use crate::app::command::Command;
 use crate::app::figures::{self, FIGURES, Figure};
 use crate::app::text::{fill, tr};
 use crate::app::widgets::{BadgeKind, badge, chips};
 use crate::app::{caption, fonts, theme};
+use crate::scenario::Scenario;
 
 /// The number under which the tables are chosen.
 pub(in crate::app) const TABLES: u8 = 1;
@@ -63,9 +65,10 @@ fn describe(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure) {
             ui.label(
                 RichText::new(title).font(fonts::semibold(theme::size::TITLE)).color(tokens.text_strong),
             );
-            let own = figure.scenario();
-            if own.as_ref() != Some(&context.view.scenario) {
-                badge(ui, BadgeKind::Warning, tr("numbers changed"));
+            let changed = figure.scenario().map(|own| changes(&own, &context.view.scenario));
+            if let Some(changed) = changed.filter(|changed| !changed.is_empty()) {
+                let list = [("list", &changed.join(", ") as &dyn std::fmt::Display)];
+                badge(ui, BadgeKind::Warning, &fill("changed: {list}", &list));
                 if ui.button(fill("Load Figure {number}", &[("number", &figure.number)])).clicked() {
                     context.commands.push(Command::LoadFigure(figure.number));
                 }
@@ -77,6 +80,21 @@ fn describe(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure) {
     });
 }
 
+/// What of a figure's own scenario is another in the one that is shown: what it is called on the page.
+fn changes(own: &Scenario, shown: &Scenario) -> Vec<&'static str> {
+    let parameters = PARAMETERS
+        .into_iter()
+        .filter(|(parameter, _)| parameter.get(&own.parameters) != parameter.get(&shown.parameters))
+        .map(|(_, symbol)| symbol);
+    let rest = [
+        (own.model.modes != shown.model.modes, tr("modes")),
+        (own.model.force != shown.model.force, tr("force law")),
+        (own.initial != shown.initial, tr("start")),
+        (own.t_end != shown.t_end, tr("duration")),
+    ];
+    parameters.chain(rest.into_iter().filter(|(differs, _)| *differs).map(|(_, name)| name)).collect()
+}
+
 fn paragraph(ui: &mut Ui, lead: &str, text: &str) {
     let tokens = theme::tokens(ui);
     let mut job = egui::text::LayoutJob::default();
@@ -84,4 +102,23 @@ fn paragraph(ui: &mut Ui, lead: &str, text: &str) {
     job.append(lead, 0.0, format(tokens.text_weak, fonts::semibold(theme::size::BODY)));
     job.append(text, 0.0, format(tokens.text, fonts::regular(theme::size::BODY)));
     ui.add(egui::Label::new(job).wrap());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::ForceLaw;
+
+    #[test]
+    fn what_differs_from_a_figure_is_named() {
+        let own = figures::figure(9).and_then(Figure::scenario).expect("a scenario");
+        let mut shown = own.clone();
+        shown.device = Some(crate::model::Device::default());
+        assert!(changes(&own, &shown).is_empty());
+        shown.parameters.omega += 1e-6;
+        shown.parameters.c0 = 0.5;
+        shown.model.force = ForceLaw::Exact;
+        shown.t_end += 1.0;
+        assert_eq!(changes(&own, &shown), ["ω", "c₀", "force law", "duration"]);
+    }
 }

@@ -13,7 +13,7 @@ use crate::dynamics::sweep::Dwell;
 use crate::model::Parameter;
 
 /// The parameters that can be swept, with their symbols.
-const PARAMETERS: [(Parameter, &str); 10] = [
+pub(super) const PARAMETERS: [(Parameter, &str); 10] = [
     (Parameter::Omega, "ω"),
     (Parameter::Beta, "β"),
     (Parameter::Alpha, "α"),

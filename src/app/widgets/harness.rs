@@ -11,6 +11,8 @@ pub(in crate::app) struct Harness {
     time: f64,
     /// Role, label, value and bounds of every widget of the last frame.
     pub(in crate::app) nodes: Vec<Node>,
+    /// The texts that were painted, with how much of each is in sight.
+    pub(in crate::app) texts: Vec<(String, f32)>,
 }
 
 /// One widget as the accessibility tree shows it.
@@ -32,7 +34,7 @@ impl Harness {
         fonts::install(&context, None);
         theme::apply(&context, &theme::DARK);
         context.enable_accesskit();
-        Self { context, size: vec2(width, height), time: 0.0, nodes: Vec::new() }
+        Self { context, size: vec2(width, height), time: 0.0, nodes: Vec::new(), texts: Vec::new() }
     }
 
     /// One frame, 1/60 s after the previous, with these events.
@@ -55,7 +57,14 @@ impl Harness {
                 .map(|(id, node)| Node { focused: *id == update.focus, ..Node::read(*id, node) })
                 .collect();
         }
+        self.texts =
+            output.shapes.iter().filter_map(|clipped| painted(clipped.clip_rect, &clipped.shape)).collect();
         output.drop_without_applying_deltas();
+    }
+
+    /// Makes the page another size from the next frame on.
+    pub(in crate::app) fn resize(&mut self, width: f32, height: f32) {
+        self.size = vec2(width, height);
     }
 
     /// Enough frames without input for layout and hit testing to settle.
@@ -117,6 +126,14 @@ impl Node {
         let focusable = node.supports_action(egui::accesskit::Action::Focus) && !node.is_disabled();
         Self { id, focusable, focused: false, role: node.role(), label, number: node.numeric_value(), bounds }
     }
+}
+
+fn painted(clip: Rect, shape: &egui::Shape) -> Option<(String, f32)> {
+    let egui::Shape::Text(text) = shape else { return None };
+    let bounds = text.visual_bounding_rect();
+    let seen = clip.intersect(bounds);
+    let share = if seen.is_positive() { seen.area() / bounds.area() } else { 0.0 };
+    Some((text.galley.text().to_owned(), share))
 }
 
 fn button(pos: Pos2, pressed: bool) -> Event {

@@ -1,39 +1,25 @@
 //! List and guide, drawn without a window.
 
-use std::cell::RefCell;
-use std::rc::Rc;
-
 use egui::{Rect, Role, pos2};
 
-use crate::app::App;
-use crate::app::crew::{Crew, Inline};
 use crate::app::lessons::LessonId;
-use crate::app::widgets::harness::{Harness, Node};
+use crate::app::rehearsal::Desk;
+use crate::app::widgets::harness::Node;
 
-fn app(harness: &Harness, view: &str) -> App {
-    let crew = Rc::new(RefCell::new(Crew::new(Box::new(Inline::default()))));
-    let stored = format!(r#"{{"scenario":{{"t_end":50}},{view}}}"#);
-    App::new(&harness.context, Some(&stored), crew)
-}
-
-fn frames(app: &mut App, harness: &mut Harness, count: usize) {
-    for _ in 0..count {
-        let context = harness.context.clone();
-        app.logic(&context);
-        harness.frame(Vec::new(), |ui| app.ui(ui));
-    }
+fn desk(width: f32, height: f32, view: &str) -> Desk {
+    Desk::new(width, height, &format!(r#"{{"scenario":{{"t_end":50}},{view}}}"#))
 }
 
 #[test]
 fn every_card_holds_its_texts_at_every_width() {
     for width in [360.0, 768.0, 1024.0, 1280.0, 1440.0, 1920.0] {
-        let mut harness = Harness::new(width, 2400.0);
-        let mut app = app(&harness, r#""tab":"lessons""#);
-        frames(&mut app, &mut harness, 3);
+        let mut desk = desk(width, 2400.0, r#""tab":"lessons""#);
+        desk.work(3);
         for id in LessonId::all() {
             let lesson = id.lesson().expect("a lesson");
-            let card = harness.find(Role::Button, &format!("Begin: {}", lesson.title.get())).bounds;
-            let texts: Vec<&Node> = harness
+            let card = desk.harness.find(Role::Button, &format!("Begin: {}", lesson.title.get())).bounds;
+            let texts: Vec<&Node> = desk
+                .harness
                 .nodes
                 .iter()
                 .filter(|node| node.role == Role::Label && card.contains(node.bounds.left_top()))
@@ -57,20 +43,18 @@ fn every_step_has_its_buttons_on_the_page_and_leaves_room_for_the_plots() {
         for id in LessonId::all() {
             let lesson = id.lesson().expect("a lesson");
             for step in 1..=lesson.steps.len() {
-                let mut harness = Harness::new(width, height);
-                let view = format!(r#""lesson":"{id}","step":{step}"#);
-                let mut app = app(&harness, &view);
-                frames(&mut app, &mut harness, 4);
+                let mut desk = desk(width, height, &format!(r#""lesson":"{id}","step":{step}"#));
+                desk.work(4);
                 let next = if step == lesson.steps.len() { "Finish" } else { "Next" };
                 for label in ["Leave the lesson", "Back", next] {
-                    let bounds = harness.find(Role::Button, label).bounds;
+                    let bounds = desk.harness.find(Role::Button, label).bounds;
                     assert!(
                         page.contains_rect(bounds),
                         "{id}, step {step}, at {width}: {label} at {bounds:?}"
                     );
                 }
                 // Beside the plots or below them, they keep more than half of the page.
-                let leave = harness.find(Role::Button, "Leave the lesson").bounds;
+                let leave = desk.harness.find(Role::Button, "Leave the lesson").bounds;
                 let beside = width >= 1200.0;
                 let room = if beside { leave.right() - 320.0 } else { leave.top() };
                 assert!(
