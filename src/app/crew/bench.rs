@@ -1,6 +1,6 @@
 //! What is being studied for the Design tab.
 
-use super::studies::{offer, open};
+use super::lane::{offer, open};
 use crate::app::bench::{Pinned, questions};
 use crate::app::session::Session;
 use crate::app::view::View;

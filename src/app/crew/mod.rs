@@ -5,6 +5,7 @@
 
 mod bench;
 mod inline;
+mod lane;
 mod studies;
 
 pub use inline::Inline;

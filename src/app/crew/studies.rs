@@ -1,6 +1,7 @@
 //! What is being studied for the page: one lane a topic, the newest question of each.
 
 use super::bench::BenchStudies;
+use super::lane::{offer, open};
 use crate::app::embed::{self, Embed};
 use crate::app::map::{self, Structure};
 use crate::app::questions;
@@ -11,7 +12,6 @@ use crate::dynamics::tongue::Window;
 use crate::jobs::foreman::{Lane, Traffic};
 use crate::jobs::inspection::Inspection;
 use crate::jobs::response::ResponseCurve;
-use crate::jobs::study::Study;
 use crate::jobs::study::answers::Answers;
 use crate::jobs::study::basin::Basin;
 use crate::jobs::study::curves::CurvesStudy;
@@ -241,17 +241,5 @@ impl Studies {
         let Some(Ok(Finding::Inspection(found))) = study.found() else { return None };
         let current = matches!(study.work(), Work::Inspect { scenario: of } if of == scenario);
         Some((found, current))
-    }
-}
-
-/// Whether a lane's study goes on.
-pub(super) fn open<S: Study>(lane: &Lane<S>) -> bool {
-    lane.study().is_some_and(|study| !study.finished())
-}
-
-/// Asks for a piece of work, unless it was asked for last.
-pub(super) fn offer(lane: &mut Lane<Single>, work: Work) {
-    if lane.wanted().is_none_or(|wanted| *wanted.work() != work) {
-        lane.offer(Single::new(work));
     }
 }
