@@ -61,6 +61,11 @@ pub fn significant(value: f64, digits: usize) -> String {
     typographic(&text)
 }
 
+/// With three of them.
+pub fn short(value: f64) -> String {
+    significant(value, 3)
+}
+
 /// The factor and the sign of the SI prefix that makes `value` readable: 1.3e-5 counts in `(1e6, "µ")`.
 pub fn prefix(value: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 8] =

@@ -3,10 +3,10 @@
 use egui::Ui;
 
 use super::Context;
-use super::controls::short;
 use crate::app::command::Command;
 use crate::app::curves;
 use crate::app::text::{fill, tr};
+use crate::app::widgets::number::short;
 use crate::app::widgets::{BeamView, Card, Icon};
 use crate::dynamics::Outcome;
 

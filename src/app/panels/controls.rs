@@ -2,15 +2,16 @@
 
 use egui::Ui;
 
+use super::frequency::{FREQUENCIES, resonance_marks};
 use super::{Context, beam, device, structure};
 use crate::app::map::Boundaries;
 use crate::app::text::{fill, tr};
 use crate::app::view::Tab;
-use crate::app::widgets::{Mark, ParameterSlider};
+use crate::app::widgets::ParameterSlider;
+use crate::app::widgets::number::short;
 use crate::model::{Parameter, ParameterSet, Units};
 
-/// Ends of the sliders; numbers beyond can come from a file or a request.
-pub(super) const FREQUENCIES: (f64, f64) = (0.5, 50.0);
+/// Values from which on the sliders are logarithmic.
 const SMALLEST_DAMPING: f64 = 1e-6;
 const SMALLEST_EXCITATION: f64 = 1e-5;
 
@@ -83,28 +84,6 @@ fn main_controls(context: &mut Context<'_>, ui: &mut Ui) {
     }
 }
 
-/// Marks of the frequency slider, the secondary resonances first.
-pub(super) fn resonance_marks(boundaries: &Boundaries) -> Vec<Mark> {
-    let frequencies = &boundaries.frequencies;
-    let first = frequencies[0];
-    let mut marks = vec![Mark::new(
-        2.0 * first,
-        "2ω₁",
-        tr("Twice the first natural frequency: first subharmonic resonance"),
-    )];
-    if let Some(second) = frequencies.get(1) {
-        marks.push(Mark::new(first + second, "ω₁+ω₂", tr("Sum of the first two: combination resonance")));
-        marks.push(Mark::new(2.0 * second, "2ω₂", tr("Twice the second: second subharmonic resonance")));
-        marks.push(Mark::new(second - first, "ω₂−ω₁", tr("Difference of the first two: no resonance here")));
-        marks.push(Mark::new(first, "ω₁", tr("First natural frequency: primary resonance")));
-        marks.push(Mark::new(*second, "ω₂", tr("Second natural frequency: primary resonance")));
-    } else {
-        marks.push(Mark::new(first, "ω₁", tr("First natural frequency: primary resonance")));
-    }
-    marks.retain(|mark| (FREQUENCIES.0..=FREQUENCIES.1).contains(&mark.value));
-    marks
-}
-
 fn damping_in_words(boundaries: Option<&Boundaries>, set: &ParameterSet) -> String {
     // The paper's beam alone, then with the circuit: the decay of the coupled modes.
     let ratio = boundaries.and_then(|boundaries| boundaries.coupled.as_ref()).and_then(|coupled| {
@@ -127,9 +106,4 @@ fn excitation_in_words(units: &Units, set: &ParameterSet) -> String {
 fn frequency_in_words(units: &Units, set: &ParameterSet) -> String {
     let hertz = units.hertz(set.omega);
     fill("{hertz} Hz  ·  period {seconds} s", &[("hertz", &short(hertz)), ("seconds", &short(1.0 / hertz))])
-}
-
-/// Three significant digits.
-pub(in crate::app) fn short(value: f64) -> String {
-    crate::app::widgets::number::significant(value, 3)
 }

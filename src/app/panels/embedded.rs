@@ -2,7 +2,7 @@
 
 use egui::{Align, Layout, RichText, Ui, vec2};
 
-use super::{Context, beam, design, device, explore, structure, verdict};
+use super::{Context, beam, design, device, grid, plots, structure, verdict};
 use crate::app::embed::{Control, Embed, Part};
 use crate::app::text::{fill, tr};
 use crate::app::view::{Panel, View};
@@ -65,7 +65,7 @@ fn contents(context: &mut Context<'_>, embed: &Embed, notice: Option<&str>, ui: 
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing = vec2(GAP, 0.0);
             for part in row {
-                explore::place(ui, width, height, &mut |ui| draw(context, ui, *part));
+                grid::place(ui, width, height, &mut |ui| draw(context, ui, *part));
             }
         });
     }
@@ -89,7 +89,7 @@ fn columns(count: usize, room: egui::Vec2) -> usize {
 fn draw(context: &mut Context<'_>, ui: &mut Ui, part: Part) {
     match part {
         Part::Plot(panel @ (Panel::Harvest | Panel::Load)) => design::plot_alone(context, ui, panel),
-        Part::Plot(panel) => explore::draw(context, ui, panel),
+        Part::Plot(panel) => plots::draw(context, ui, panel),
         // The card's own title and margin take the rest.
         Part::Beam => beam::show_in(context, ui, ui.available_height() - BEAM_FRAME),
         Part::Verdict => {}

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::{Context, explore, verdict};
+use super::{Context, grid, plots, verdict};
 use crate::app::view::Panel;
 
 /// The plots.
@@ -12,6 +12,6 @@ pub(in crate::app) const PANELS: [Panel; 6] =
 /// Draws the tab.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
-    ui.add_space(explore::GAP);
-    explore::cards(context, ui, &PANELS);
+    ui.add_space(grid::GAP);
+    plots::cards(context, ui, &PANELS);
 }

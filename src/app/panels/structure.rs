@@ -3,8 +3,9 @@
 use egui::Ui;
 
 use super::Context;
-use super::controls::{FREQUENCIES, short};
+use super::frequency::FREQUENCIES;
 use crate::app::text::{fill, tr};
+use crate::app::widgets::number::short;
 use crate::app::widgets::{Fold, ParameterSlider, chips};
 use crate::model::{ForceLaw, MAX_MODES, Parameter, ParameterSet, state_dimension};
 use crate::scenario::{END_TIME, Scenario};

@@ -2,8 +2,8 @@
 
 use egui::{RichText, Ui};
 
-use super::controls::FREQUENCIES;
-use super::{Context, explore, verdict};
+use super::frequency::FREQUENCIES;
+use super::{Context, grid, plots, verdict};
 use crate::app::command::Command;
 use crate::app::text::tr;
 use crate::app::view::{Output, Panel, SweepView};
@@ -42,10 +42,10 @@ pub(in crate::app) const PANELS: [Panel; 2] = [Panel::OrbitDiagram, Panel::Respo
 /// Draws the tab.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     choices(context, ui);
-    ui.add_space(explore::GAP);
-    explore::cards(context, ui, &PANELS);
+    ui.add_space(grid::GAP);
+    plots::cards(context, ui, &PANELS);
 }
 
 /// The symbol of a parameter, and its name as an axis title.

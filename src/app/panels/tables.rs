@@ -3,8 +3,8 @@
 use egui::{Grid, RichText, Ui};
 
 use super::Context;
-use super::controls::short;
 use crate::app::text::{fill, tr};
+use crate::app::widgets::number::short;
 use crate::app::widgets::{Card, number};
 use crate::app::{fonts, theme};
 use crate::model::materials::TABLE_2;

@@ -5,7 +5,7 @@ use egui_plot::PlotUi;
 
 use super::harvest::{Measure, linear_points};
 use crate::app::bench::questions;
-use crate::app::panels::{Context, explore};
+use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::View;
@@ -26,11 +26,11 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         .hint(tr("at the base's present amplitude"))
         .hugging()
         .show(ui, |ui| table(context, ui));
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     Card::new(tr("Best load")).hugging().show(ui, |ui| super::load::brief(context, ui));
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     Card::new(tr("Frequencies")).hugging().show(ui, |ui| window(context, ui));
 }
 

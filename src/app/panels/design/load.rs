@@ -5,7 +5,7 @@ use egui_plot::PlotPoint;
 
 use super::safety::{Safety, beyond};
 use crate::app::panels::computing;
-use crate::app::panels::{Context, explore};
+use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, marked, reworded, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
@@ -144,9 +144,9 @@ pub(super) fn best_reached(study: &LoadStudy) -> Option<[f64; 2]> {
 /// The cards beside the plot.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
     Card::new(tr("Best load")).hugging().show(ui, |ui| brief(context, ui));
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     Card::new(tr("Best load and frequency")).hugging().show(ui, |ui| both(context, ui));
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
 }
 

@@ -5,7 +5,7 @@ use egui::{Grid, RichText, Ui};
 use super::safety;
 use crate::app::command::Command;
 use crate::app::panels::computing;
-use crate::app::panels::{Context, explore};
+use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
@@ -30,7 +30,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         ui.add_space(6.0);
         notes(context, ui);
     });
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
 }
 

@@ -6,7 +6,7 @@ use egui_plot::PlotPoint;
 use super::harvest::Measure;
 use crate::app::bench::measured::{Domain, File};
 use crate::app::command::Command;
-use crate::app::panels::{Context, explore};
+use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
@@ -144,7 +144,7 @@ pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
         context.commands.push(Command::Measure(None));
     }
     if let Some(file) = context.bench.measured.file.as_ref().filter(|file| file.measures.is_some()) {
-        ui.add_space(explore::GAP);
+        ui.add_space(grid::GAP);
         Card::new(tr("Compared")).hugging().show(ui, |ui| compared(context, ui, file));
     }
 }

@@ -15,7 +15,7 @@ mod trust;
 
 use egui::Ui;
 
-use super::{Context, explore};
+use super::{Context, grid};
 use crate::app::text::tr;
 use crate::app::view::Panel;
 use crate::app::view::design::Page;
@@ -31,7 +31,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     choose(context, ui);
     ui.add_space(4.0);
     summary::show(context, ui);
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     match context.view.design.page {
         Page::Harvest => beside(context, ui, Panel::Harvest, harvest::show, bands::show),
         Page::Load => beside(context, ui, Panel::Load, load::show, load::cards),
@@ -73,14 +73,14 @@ fn beside(context: &mut Context<'_>, ui: &mut Ui, panel: Panel, plot: Draw, card
     let room = ui.available_size();
     let alone = context.view.enlarged == Some(panel);
     let wide = room.x >= BESIDE && !alone;
-    let width = if wide { room.x - ASIDE - explore::GAP } else { room.x };
+    let width = if wide { room.x - ASIDE - grid::GAP } else { room.x };
     let height = room.y.max(LEAST_HEIGHT);
     let draw_plot = |context: &mut Context<'_>, ui: &mut Ui| {
-        explore::place(ui, width, height, &mut |ui| plot(context, ui));
+        grid::place(ui, width, height, &mut |ui| plot(context, ui));
     };
     if wide {
         ui.horizontal_top(|ui| {
-            ui.spacing_mut().item_spacing.x = explore::GAP;
+            ui.spacing_mut().item_spacing.x = grid::GAP;
             draw_plot(context, ui);
             ui.vertical(|ui| {
                 ui.spacing_mut().item_spacing.x = 8.0;
@@ -91,7 +91,7 @@ fn beside(context: &mut Context<'_>, ui: &mut Ui, panel: Panel, plot: Draw, card
     } else {
         draw_plot(context, ui);
         if !alone {
-            ui.add_space(explore::GAP);
+            ui.add_space(grid::GAP);
             cards(context, ui);
         }
     }

@@ -8,7 +8,7 @@ use egui::{RichText, Ui};
 pub(super) use self::map::show;
 use crate::app::bench::questions;
 use crate::app::command::Command;
-use crate::app::panels::{Context, device, explore};
+use crate::app::panels::{Context, device, grid};
 use crate::app::text::{fill, reworded, tr};
 use crate::app::theme;
 use crate::app::view::design::Aim;
@@ -24,9 +24,9 @@ pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
         .hint(tr("at the base's amplitude"))
         .hugging()
         .show(ui, |ui| varied::sides(context, ui));
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     Card::new(tr("Search")).hugging().show(ui, |ui| search(context, ui));
-    ui.add_space(explore::GAP);
+    ui.add_space(grid::GAP);
     Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
 }
 

@@ -3,7 +3,7 @@
 use egui::{Grid, RichText, Ui};
 
 use crate::app::panels::computing;
-use crate::app::panels::{Context, explore};
+use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
@@ -28,7 +28,7 @@ const TWO_COLUMNS: f32 = 900.0;
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     if ui.available_width() < TWO_COLUMNS {
         switch(context, ui);
-        ui.add_space(explore::GAP);
+        ui.add_space(grid::GAP);
         convergence(context, ui);
     } else {
         ui.columns(2, |columns| {

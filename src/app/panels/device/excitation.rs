@@ -6,10 +6,10 @@ use egui::{RichText, Ui};
 
 use super::{adopt, choose_units, device_of, round, words};
 use crate::app::panels::Context;
-use crate::app::panels::controls::{FREQUENCIES, resonance_marks, short};
+use crate::app::panels::frequency::{FREQUENCIES, resonance_marks};
 use crate::app::text::{fill, reworded, tr};
 use crate::app::theme;
-use crate::app::widgets::number::round_significant;
+use crate::app::widgets::number::{round_significant, short};
 use crate::app::widgets::{Mark, ParameterSlider, chips};
 use crate::model::{Device, Dimension};
 

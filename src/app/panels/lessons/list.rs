@@ -7,7 +7,7 @@ use super::text;
 use crate::app::command::Command;
 use crate::app::lessons::course::Action;
 use crate::app::lessons::{Lesson, LessonId};
-use crate::app::panels::explore::GAP;
+use crate::app::panels::grid::GAP;
 use crate::app::text::{fill, tr};
 use crate::app::widgets::{BadgeKind, badge};
 use crate::app::{fonts, theme};

@@ -6,10 +6,10 @@ use egui::Ui;
 
 use crate::app::curves::{self, SIGHT};
 use crate::app::panels::Context;
-use crate::app::panels::controls::short;
 use crate::app::text::{fill, tr};
 use crate::app::view::Panel;
 use crate::app::widgets::BeamView;
+use crate::app::widgets::number::short;
 
 /// Draws the card.
 pub(in crate::app::panels) fn show(context: &mut Context<'_>, ui: &mut Ui) {

@@ -8,8 +8,8 @@ pub(super) mod scope;
 
 use egui::{Ui, vec2};
 
-use super::Context;
-use super::explore::{self, GAP, LEAST_HEIGHT, TWO_COLUMNS, place};
+use super::grid::{GAP, LEAST_HEIGHT, TWO_COLUMNS, place};
+use super::{Context, plots};
 use crate::app::view::Panel;
 use crate::app::view::live::{LiveView, Trace};
 use crate::app::widgets::plot_style::Axis;
@@ -27,7 +27,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     ui.add_space(GAP);
     let width = ui.available_width();
     if context.view.enlarged.is_some_and(|panel| PANELS.contains(&panel)) || width < TWO_COLUMNS {
-        return explore::cards(context, ui, &PANELS);
+        return plots::cards(context, ui, &PANELS);
     }
     let height = ui.available_height() - GAP;
     let top = (SCOPE * height).floor().max(LEAST_HEIGHT - 30.0);

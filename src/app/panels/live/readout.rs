@@ -5,10 +5,9 @@ use egui::Ui;
 use super::si;
 use crate::app::live::End;
 use crate::app::panels::Context;
-use crate::app::panels::controls::short;
 use crate::app::text::{fill, tr};
 use crate::app::theme;
-use crate::app::widgets::number::{prefix, significant};
+use crate::app::widgets::number::{prefix, short, significant};
 use crate::app::widgets::{Tile, tiles};
 
 /// Least width of a tile, points.

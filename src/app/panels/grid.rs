@@ -1,0 +1,40 @@
+//! Where cards stand: beside and below each other, with the same space between them on every tab.
+
+use egui::{Ui, vec2};
+
+/// Space between cards.
+pub(super) const GAP: f32 = 10.0;
+/// Least height of a plot's card, and where it stands alone in its row: its choices then take several rows.
+pub(super) const LEAST_HEIGHT: f32 = 270.0;
+pub(super) const LEAST_HEIGHT_ALONE: f32 = 350.0;
+/// Width from which two cards stand side by side.
+pub(super) const TWO_COLUMNS: f32 = 640.0;
+
+/// Lays out cards of equal size in one or two columns that fill the page, or more when it is low.
+pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], draw: &mut dyn FnMut(&mut Ui, &T)) {
+    let columns = if ui.available_width() >= TWO_COLUMNS { 2 } else { 1 };
+    let rows = cards.len().div_ceil(columns);
+    let width = ((ui.available_width() - GAP * (columns - 1) as f32) / columns as f32).floor();
+    let least = if columns == 1 { LEAST_HEIGHT_ALONE } else { LEAST_HEIGHT };
+    let height = ((ui.available_height() - GAP * (rows - 1) as f32) / rows as f32).floor().max(least);
+    for (index, row) in cards.chunks(columns).enumerate() {
+        if index > 0 {
+            ui.add_space(GAP - ui.spacing().item_spacing.y);
+        }
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing = vec2(GAP, 0.0);
+            for card in row {
+                place(ui, width, height, &mut |ui| draw(ui, card));
+            }
+        });
+    }
+}
+
+/// A place of this size.
+pub(super) fn place(ui: &mut Ui, width: f32, height: f32, draw: &mut dyn FnMut(&mut Ui)) {
+    ui.allocate_ui(vec2(width, height), |ui| {
+        ui.set_min_size(vec2(width, height));
+        ui.set_max_size(vec2(width, height));
+        draw(ui);
+    });
+}
