@@ -137,6 +137,8 @@ pub enum Panel {
     Load,
     /// Map over two dimensions of the device.
     DesignMap,
+    /// The magnets' force over the tip's range.
+    MagnetForce,
     /// Measured data.
     Measured,
     /// Live trace over time.
