@@ -1,5 +1,6 @@
 //! The Design tab: what a device delivers in volts, watts and hertz, within which limits, and what would be better.
 
+mod alignment;
 mod bands;
 mod force;
 pub(super) mod harvest;
