@@ -45,7 +45,7 @@ pub(super) fn controls(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
     let mut reading = file.reading;
     ui.add_space(4.0);
     let slider = ParameterSlider::new(tr("Shift"), "", &mut reading.shift, 0.0..=REACH).compact();
-    let slider = slider.unit("2π/ω").default_value(0.0);
+    let slider = slider.unit(tr("periods")).default_value(0.0);
     slider.tooltip(tr("By how many excitation periods the computed run is moved.")).show(ui);
     let compared = Compared::of(context, file);
     if ui.button(tr("Align")).clicked()
