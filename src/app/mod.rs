@@ -16,6 +16,7 @@ pub mod widgets;
 
 mod bench;
 mod caption;
+mod carrying_out;
 mod clock;
 mod colours;
 mod command;
@@ -28,6 +29,7 @@ mod figures;
 mod history;
 mod keyboard;
 mod layout;
+mod looks;
 mod map;
 pub mod mirror;
 mod panels;
@@ -55,7 +57,7 @@ use live::Live;
 use panels::Context;
 use session::{Session, Status};
 use sharing::Errand;
-use view::{MapWindow, Tab, View};
+use view::{Tab, View};
 
 use crate::export::Format;
 
@@ -77,8 +79,8 @@ pub struct App {
     errands: Vec<Errand>,
     /// Cards to be saved at the end of this frame.
     exports: Vec<(String, Format)>,
-    /// What egui was last told about theme and type size.
     speech: speaking::Speech,
+    /// What egui was last told about theme and type size.
     styled: Option<(bool, bool, bool)>,
     /// Whether the system asks for high contrast.
     system_contrast: bool,
@@ -203,22 +205,8 @@ impl App {
             commands
                 .retain(|command| matches!(command, Command::Undo | Command::Redo | Command::Enlarge(None)));
         }
-        let crew = self.crew.borrow();
-        let mut context = Context {
-            view: &self.view,
-            session: &self.session,
-            studies: &crew.studies,
-            bench: &self.bench,
-            course: &self.course,
-            live: &self.live,
-            address: &self.address,
-            embed: self.embed.as_ref(),
-            steps: self.history.can(),
-            commands: &mut commands,
-        };
-        layout::draw(&mut context, self.notice.as_deref(), ui);
+        self.draw(&self.view, &mut commands, ui);
         panels::shortcuts::show(ui);
-        drop(crew);
         if commands.is_empty() {
             return;
         }
@@ -232,123 +220,30 @@ impl App {
         ui.ctx().request_repaint();
     }
 
+    /// Draws the page as it shows `view`, which exports draw once more where nobody sees it.
+    fn draw(&self, view: &View, commands: &mut Commands, ui: &mut Ui) {
+        let crew = self.crew.borrow();
+        let mut context = Context {
+            view,
+            session: &self.session,
+            studies: &crew.studies,
+            bench: &self.bench,
+            course: &self.course,
+            live: &self.live,
+            address: &self.address,
+            embed: self.embed.as_ref(),
+            steps: self.history.can(),
+            commands,
+        };
+        layout::draw(&mut context, self.notice.as_deref(), ui);
+    }
+
     /// Lets the live run go on and be heard.
     fn go_on(&mut self, context: &egui::Context) {
         if self.live.frame(context.input(|input| input.time), &self.view) {
             context.request_repaint();
         }
         self.errands.extend(self.live.chunk().map(Errand::Sound));
-    }
-
-    fn carry_out(&mut self, command: Command) {
-        match command {
-            Command::Show(scenario) => self.show(*scenario),
-            Command::OpenTab(tab) => {
-                self.view.tab = tab;
-                self.view.enlarged = None;
-            }
-            Command::LookAt(window) => self.look_at(window),
-            Command::Chart(layer) => self.view.layer = layer,
-            Command::Sweep(sweep) => self.view.sweep = sweep,
-            Command::OpenPlane(plane) => self.view.plane = plane,
-            Command::Design(design) => self.view.design = *design,
-            Command::LookLive(live) => self.view.live = live,
-            Command::Live(action) => {
-                self.live.act(action, &self.view, &self.session);
-                if !self.live.sounds() {
-                    self.errands.push(Errand::Sound(Vec::new()));
-                }
-            }
-            Command::Adopt(Ok(scenario)) => self.show(*scenario),
-            Command::Adopt(Err(reason)) => self.bench.refusal = Some(reason),
-            Command::Lesson(action) => self.follow_lesson(action),
-            Command::Find(begin) => {
-                let question = begin.then(|| bench::questions::find(&self.view, &self.session));
-                let begun = self.crew.borrow_mut().studies.bench.search(question, &self.view);
-                self.bench.refusal = begun.err();
-            }
-            Command::Measure(Some(reading)) => self.bench.measured.read(reading),
-            Command::Measure(None) => self.bench.measured = bench::measured::Measured::default(),
-            Command::LoadFigure(number) => self.load_figure(number),
-            Command::Enlarge(panel) => self.view.enlarged = panel,
-            Command::Pin(keep) => {
-                self.session.pin(keep);
-                let crew = self.crew.borrow();
-                self.bench.pinned = keep.then(|| crew.studies.bench.pinned(&self.view.scenario));
-            }
-            Command::SetDark(dark) => self.view.dark = Some(dark),
-            Command::Speak(language) => self.view.language = Some(language),
-            Command::SetContrast(contrast) => self.view.contrast = Some(contrast),
-            Command::FollowSystem => (self.view.dark, self.view.contrast) = (None, None),
-            Command::SetProjector(large) => self.view.projector = large,
-            Command::MoveBeam(moves) => self.view.beam_moves = moves,
-            Command::DismissNotice => self.notice = None,
-            Command::Undo => self.undo(),
-            Command::Redo => self.redo(),
-            Command::SaveFile => self.save_file(),
-            Command::Export(title, format) => self.exports.push((title, format)),
-            Command::Report => self.save_report(),
-            Command::OpenFile => self.errands.push(Errand::Open),
-        }
-    }
-
-    fn show(&mut self, scenario: crate::scenario::Scenario) {
-        self.bench.refusal = None;
-        if self.view.scenario.model != scenario.model {
-            self.bench.before = self.view.scenario.model;
-        }
-        self.session.ask(&scenario);
-        if let Some(boundaries) = &self.session.boundaries {
-            self.view.map = boundaries.follow(self.view.map, scenario.parameters.omega);
-        }
-        self.view.scenario = scenario;
-    }
-
-    /// Opens a window of the map; a point outside of it comes along.
-    fn look_at(&mut self, window: MapWindow) {
-        self.view.map = window;
-        let Some(boundaries) = &self.session.boundaries else { return };
-        let (low, high) = boundaries.range(window);
-        let omega = self.view.scenario.parameters.omega;
-        if let Some(tongue) = window.resonance().and_then(|resonance| boundaries.tongue(resonance))
-            && !(low..=high).contains(&omega)
-        {
-            let mut scenario = self.view.scenario.clone();
-            scenario.parameters.omega = tongue.published_frequency;
-            self.show(scenario);
-        }
-    }
-
-    fn load_figure(&mut self, number: u8) {
-        self.view.figure = number;
-        let Some(figure) = figures::figure(number) else { return };
-        if let Some(scenario) = figure.scenario() {
-            self.view.map = figure.resonance().map_or(self.view.map, MapWindow::about);
-            self.show(scenario);
-        }
-    }
-
-    /// Says whether the system asks for high contrast.
-    pub fn set_system_contrast(&mut self, contrast: bool) {
-        self.system_contrast = contrast;
-    }
-
-    /// Whether the theme is dark, and whether it has high contrast.
-    pub fn look(&self, context: &egui::Context) -> (bool, bool) {
-        let system = context.system_theme().unwrap_or(egui::Theme::Dark) == egui::Theme::Dark;
-        (self.view.dark.unwrap_or(system), self.view.contrast.unwrap_or(self.system_contrast))
-    }
-
-    /// Tells egui about theme and type size when they have changed.
-    fn style(&mut self, context: &egui::Context) {
-        let (dark, contrast) = self.look(context);
-        let wanted = (dark, contrast, self.view.projector);
-        if self.styled == Some(wanted) {
-            return;
-        }
-        theme::apply(context, theme::Tokens::of(dark, contrast));
-        context.set_zoom_factor(if wanted.2 { theme::PROJECTOR_ZOOM } else { 1.0 });
-        self.styled = Some(wanted);
     }
 
     /// Scenario, view and newest results as JSON; the format is described in the README.

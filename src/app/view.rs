@@ -1,189 +1,23 @@
 //! What the user chose: the scenario and how it is looked at. This is what the page remembers.
 
 pub mod design;
+mod front;
 pub mod live;
+mod sweep;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::design::DesignView;
+pub use self::front::{Layer, MapWindow, Panel, Tab};
 use self::live::LiveView;
+pub use self::sweep::{Output, SweepView};
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
-use crate::app::text::{Language, fill, marked};
-use crate::dynamics::sweep::Dwell;
+use crate::app::text::{Language, fill};
 use crate::jobs::study::curves;
-use crate::jobs::study::sweep::COUNTS;
 use crate::model::{ModelError, Parameter};
 use crate::scenario::Scenario;
-use crate::theory::Resonance;
-
-/// The tabs of the top bar.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Tab {
-    /// The four linked plots.
-    #[default]
-    Explore,
-    /// A run in which time goes on.
-    Live,
-    /// Charts, multipliers, basins.
-    Stability,
-    /// Orbit diagrams and response curves.
-    Sweep,
-    /// A device in SI units: watts, load, limits.
-    Design,
-    /// The paper's figures and tables.
-    Paper,
-    /// The list of guided lessons.
-    Lessons,
-}
-
-impl Tab {
-    /// All of them in their order, with their names.
-    pub const NAMED: [(Self, &'static str); 7] = [
-        (Self::Explore, marked("Explore")),
-        (Self::Live, marked("Live")),
-        (Self::Stability, marked("Stability")),
-        (Self::Sweep, marked("Sweep")),
-        (Self::Design, marked("Design")),
-        (Self::Paper, marked("Paper")),
-        (Self::Lessons, marked("Lessons")),
-    ];
-}
-
-/// Which part of the (omega, beta) plane the stability map shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum MapWindow {
-    /// All three resonances.
-    #[default]
-    All,
-    /// About twice the first natural frequency.
-    First,
-    /// About the sum of the first two.
-    Sum,
-    /// About twice the second.
-    Second,
-}
-
-impl MapWindow {
-    /// The resonance in the middle of the window.
-    pub fn resonance(self) -> Option<Resonance> {
-        match self {
-            Self::All => None,
-            Self::First => Some(Resonance::First),
-            Self::Sum => Some(Resonance::Sum),
-            Self::Second => Some(Resonance::Second),
-        }
-    }
-
-    /// The window about a resonance.
-    pub fn about(resonance: Resonance) -> Self {
-        match resonance {
-            Resonance::First => Self::First,
-            Resonance::Sum => Self::Sum,
-            Resonance::Second => Self::Second,
-        }
-    }
-}
-
-/// What the chart over (omega, beta) shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Layer {
-    /// Largest multiplier of the forced motion.
-    #[default]
-    Multiplier,
-    /// The motion reached from the scenario's start.
-    Motion,
-    /// Its voltage.
-    Voltage,
-    /// Its power.
-    Power,
-}
-
-/// The panels that can be made large.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Panel {
-    /// Stability map.
-    StabilityMap,
-    /// Phase portrait.
-    PhasePortrait,
-    /// Poincare map.
-    PoincareMap,
-    /// Time history.
-    TimeHistory,
-    /// Chart of stability or of motions.
-    Chart,
-    /// Multipliers and the unit circle.
-    Multipliers,
-    /// Stroboscopic points of a sweep.
-    OrbitDiagram,
-    /// Response curves.
-    Response,
-    /// Curves of bifurcations.
-    Curves,
-    /// Spectrum of the voltage.
-    Spectrum,
-    /// What the verdict rests on.
-    Evidence,
-    /// Basins of attraction.
-    Basins,
-    /// What the device delivers over frequency.
-    Harvest,
-    /// Power against the load.
-    Load,
-    /// Map over two dimensions of the device.
-    DesignMap,
-    /// The magnets' force over the tip's range.
-    MagnetForce,
-    /// Measured data.
-    Measured,
-    /// Live trace over time.
-    Oscilloscope,
-    /// Live phase portrait.
-    LivePortrait,
-    /// Live beam.
-    LiveBeam,
-}
-
-/// What is swept, and how.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct SweepView {
-    /// What changes.
-    pub parameter: Parameter,
-    /// Lowest and highest value; about the resonance in view, or the present value, when absent.
-    pub range: Option<(f64, f64)>,
-    /// Number of values.
-    pub count: usize,
-    /// How long each is held.
-    pub dwell: Dwell,
-    /// What the response curves show.
-    pub output: Output,
-}
-
-impl Default for SweepView {
-    fn default() -> Self {
-        let (parameter, dwell) = (Parameter::Omega, Dwell::default());
-        Self { parameter, range: None, count: 240, dwell, output: Output::default() }
-    }
-}
-
-/// What a response curve shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Output {
-    /// Root mean square of the voltage.
-    #[default]
-    Voltage,
-    /// Mean power in the load.
-    Power,
-    /// Largest and smallest tip displacement over the gap.
-    Tip,
-}
 
 /// Scenario and view, as stored.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -287,18 +121,7 @@ impl View {
     pub(super) fn check(&self) -> Result<(), (&'static str, String)> {
         let part = |name| move |error: ModelError| (name, error.to_string());
         self.scenario.validate().map_err(part("scenario"))?;
-        let SweepView { parameter, range, count, dwell, .. } = self.sweep;
-        if let Some((from, to)) = range {
-            for end in [from, to] {
-                ModelError::check(parameter.field(), end, parameter.range(), "").map_err(part("sweep"))?;
-            }
-        }
-        let (minimum, maximum) = COUNTS;
-        if !(minimum..=maximum).contains(&count) {
-            let field = "sweep.count";
-            return Err(part("sweep")(ModelError::Count { field, value: count, minimum, maximum }));
-        }
-        dwell.validate().map_err(part("sweep"))?;
+        self.sweep.check().map_err(part("sweep"))?;
         self.design.check().map_err(part("design"))?;
         self.live.check().map_err(part("live"))?;
         if !(1..=STEPS).contains(&self.step) {

@@ -13,20 +13,20 @@
 //! Reference: collocation at Gauss points is of order 2m (Hairer, Norsett & Wanner, "Solving Ordinary
 //! Differential Equations I", section II.7); its exponential form is in Hochbruck & Ostermann, Acta Numerica 2010.
 
-use std::f64::consts::TAU;
+mod grid;
+mod step;
 
+pub(super) use self::grid::coarsest_steps;
+use self::grid::{DEEPEST_LEVEL, Grid};
+use self::step::Attempt;
+pub(super) use self::step::ROUNDING;
+pub use self::step::Step;
 use super::linear::LinearPart;
 use super::propagator::Propagator;
-use super::tables::{BLOCK, NODES, NodeValues, RULE, StepTables, add_scaled};
+use super::tables::{BLOCK, NODES, NodeValues, StepTables};
 use super::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
 use crate::model::{ReducedSystem, RestForce};
 
-/// Largest number of halvings of the longest step.
-const DEEPEST_LEVEL: usize = 20;
-/// Most passes of the fixed-point iteration before a step counts as too long.
-const MAX_PASSES: usize = 14;
-/// Relative accuracy below which rounding hides every error.
-pub(super) const ROUNDING: f64 = 1e-14;
 /// Steps that a run may take beyond [`MOST_SHORTENED`]: none may go on for minutes.
 const SPARE_STEPS: u64 = 200_000;
 /// How many times shorter than the longest step the steps of a long run may be on average.
@@ -47,26 +47,6 @@ impl Default for Settings {
     }
 }
 
-/// One accepted step, shown to the observer of a run.
-#[derive(Debug)]
-pub struct Step<'a> {
-    /// Time at the start of the step (dimensionless).
-    pub time: f64,
-    /// Extended state at the start, length 2N + 3: the state, then beta times sine and cosine of omega t.
-    pub start: &'a [f64],
-    /// R at the nodes.
-    pub rest: &'a NodeValues,
-    /// Tip displacement at the nodes, in beam lengths.
-    pub tip: &'a NodeValues,
-    /// The tables of this step's length.
-    pub tables: &'a StepTables,
-    /// The linear part's flow, for the motion within the step.
-    pub propagator: &'a Propagator,
-    /// Position within the excitation period, in steps of this length; 0 at t = 2 pi k / omega, where a run that began
-    /// at a phase of its own has that phase again.
-    pub index: usize,
-}
-
 /// An integrator of one system, holding the present state.
 #[derive(Debug, Clone)]
 pub struct Collocation {
@@ -75,32 +55,16 @@ pub struct Collocation {
     propagator: Propagator,
     force: RestForce,
     settings: Settings,
-    period: f64,
+    grid: Grid,
     beta: f64,
-    /// Of the excitation at time 0 (radians).
-    phase: f64,
     gap: f64,
-    /// Steps a period at level 0.
-    coarsest: usize,
     /// Tables of each level used so far, boxed because a step takes them out and puts them back.
     tables: Vec<Option<Box<StepTables>>>,
-    level: usize,
-    /// Whole periods done, and steps of the present level done in the current one.
-    periods: u64,
-    index: usize,
-    /// Time since the last grid point, once the run's shortened last step is done.
-    overtime: f64,
     extended: Vec<f64>,
     end: Vec<f64>,
     rest: NodeValues,
     tip: NodeValues,
     steps: u64,
-}
-
-/// What happened to an attempted step.
-enum Attempt {
-    Accepted { error: f64 },
-    Rejected,
 }
 
 impl Collocation {
@@ -129,27 +93,20 @@ impl Collocation {
         let dimension = system.dimension();
         check_state(initial, dimension)?;
         let part = LinearPart::new(system);
-        let period = system.parameters.period();
-        let coarsest = coarsest_steps(system);
-        let propagator = Propagator::new(&part, period / coarsest as f64);
+        let grid = Grid::new(system, phase);
+        let propagator = Propagator::new(&part, grid.longest_step());
         let mut extended = initial.to_vec();
         let beta = system.parameters.beta;
         extended.extend([beta * phase.sin(), beta * phase.cos()]);
         Ok(Self {
-            coarsest,
-            phase,
             part,
             propagator,
+            grid,
             force: system.rest_force(),
             settings,
-            period,
             beta,
             gap: system.equilibrium.gap,
             tables: vec![None; DEEPEST_LEVEL + 1],
-            level: 0,
-            periods: 0,
-            index: 0,
-            overtime: 0.0,
             extended,
             end: vec![0.0; dimension.next_multiple_of(BLOCK)],
             rest: [0.0; NODES],
@@ -160,8 +117,7 @@ impl Collocation {
 
     /// Present time (dimensionless).
     pub fn time(&self) -> f64 {
-        let whole = self.periods as f64 + self.index as f64 / self.steps_per_period() as f64;
-        whole * self.period + self.overtime
+        self.grid.time()
     }
 
     /// Present state, length 2N + 1.
@@ -184,10 +140,6 @@ impl Collocation {
         &self.propagator
     }
 
-    fn steps_per_period(&self) -> usize {
-        self.coarsest << self.level
-    }
-
     /// Goes on towards `t_end` for at most `most_steps` steps, each shown to `observer`, and returns the outcome
     /// once there is one. The last step is shortened to end at `t_end`; after an outcome the run is over. Without an end
     /// (infinite `t_end`) every stroboscopic instant stays on the grid.
@@ -202,25 +154,26 @@ impl Collocation {
         observer: &mut dyn FnMut(&Step<'_>),
     ) -> Result<Option<Outcome>, IntegrationError> {
         for _ in 0..most_steps {
-            if self.steps > SPARE_STEPS + MOST_SHORTENED * self.coarsest as u64 * self.periods {
+            if self.steps > SPARE_STEPS + MOST_SHORTENED * self.grid.longest_steps_done() {
                 return Err(IntegrationError::TooManySteps { time: self.time(), steps: self.steps });
             }
             let remaining = t_end - self.time();
-            if remaining <= 1e-12 * self.period {
+            if remaining <= 1e-12 * self.grid.period() {
                 return Ok(Some(Outcome::Completed));
             }
-            let length = self.step_length();
+            let length = self.grid.step_length();
+            let level = self.grid.level();
             let last = remaining < length * (1.0 - 1e-9);
-            let tables = match self.tables[self.level].take() {
+            let tables = match self.tables[level].take() {
                 Some(tables) if !last => tables,
                 kept => {
-                    let tables = if last || self.level > 0 {
+                    let tables = if last || level > 0 {
                         StepTables::new(&self.part, if last { remaining } else { length })
                     } else {
                         StepTables::of(&self.propagator)
                     };
                     let tables = Box::new(tables);
-                    self.tables[self.level] = kept;
+                    self.tables[level] = kept;
                     tables
                 }
             };
@@ -229,12 +182,12 @@ impl Collocation {
                 observer(&self.present(&tables));
             }
             if !last {
-                self.tables[self.level] = Some(tables);
+                self.tables[level] = Some(tables);
             }
             match attempt {
                 Attempt::Accepted { .. } if last => {
                     self.move_to_end();
-                    self.overtime = remaining;
+                    self.grid.leave(remaining);
                     return Ok(Some(self.ended().unwrap_or(Outcome::Completed)));
                 }
                 Attempt::Accepted { error } => {
@@ -245,18 +198,14 @@ impl Collocation {
                     }
                     self.lengthen(error);
                 }
-                Attempt::Rejected if self.level == DEEPEST_LEVEL => return self.give_up().map(Some),
                 Attempt::Rejected => {
-                    self.level += 1;
-                    self.index *= 2;
+                    if !self.grid.halve() {
+                        return self.give_up().map(Some);
+                    }
                 }
             }
         }
         Ok(None)
-    }
-
-    fn step_length(&self) -> f64 {
-        self.period / self.steps_per_period() as f64
     }
 
     fn present<'a>(&'a self, tables: &'a StepTables) -> Step<'a> {
@@ -267,76 +216,8 @@ impl Collocation {
             tip: &self.tip,
             tables,
             propagator: &self.propagator,
-            index: self.index,
+            index: self.grid.index(),
         }
-    }
-
-    /// Solves the step from the present state; leaves R and s at the nodes in `self`.
-    fn attempt(&mut self, tables: &StepTables) -> Attempt {
-        // Compiled twice, once for the paper's law alone, which then stays in registers.
-        let solution = match self.force {
-            RestForce::Quadratic { c2 } => self.solve(&RestForce::Quadratic { c2 }, tables),
-            _ => self.solve(&self.force, tables),
-        };
-        match solution {
-            Some((rest, tip, scale)) => self.judge(tables, rest, tip, scale),
-            None => Attempt::Rejected,
-        }
-    }
-
-    /// R and s at the nodes under the integrator's own `force`, and the size of s by which their error is judged; `None`
-    /// when the step is too long.
-    #[inline(always)]
-    fn solve(&self, force: &RestForce, tables: &StepTables) -> Option<(NodeValues, NodeValues, f64)> {
-        let free = tables.tip.free(&self.extended);
-        let n = self.part.modes;
-        let s: f64 = self.extended[..n].iter().sum();
-        let w: f64 = self.extended[n..2 * n].iter().sum();
-        let mut tip = free;
-        add_scaled(&mut tip, force.rest(s), &tables.guess[0]);
-        add_scaled(&mut tip, force.slope(s) * w, &tables.guess[1]);
-        let scale = self.gap.max(s.abs());
-        // Each pass shrinks the error by an order of magnitude or more, so the last change bounds what is left.
-        let settled = (1e-4 * self.settings.tolerance).max(ROUNDING) * scale;
-        let contact = force.contact();
-        for _ in 0..MAX_PASSES {
-            let rest = force.rest_at(&tip);
-            let mut next = free;
-            for (value, row) in rest.iter().zip(&tables.tip.from_rest) {
-                add_scaled(&mut next, *value, row);
-            }
-            let change = largest_difference(&next, &tip);
-            tip = next;
-            let lowest = tip.iter().copied().fold(f64::INFINITY, f64::min);
-            let beyond = contact.is_some_and(|contact| lowest <= contact);
-            if !change.is_finite() || beyond {
-                return None;
-            }
-            if change <= settled {
-                return Some((force.rest_at(&tip), tip, scale));
-            }
-        }
-        None
-    }
-
-    fn judge(&mut self, tables: &StepTables, rest: NodeValues, tip: NodeValues, scale: f64) -> Attempt {
-        let mut highest = 0.0;
-        for row in &RULE.highest {
-            let coefficient: f64 = row.iter().zip(&rest).map(|(a, b)| a * b).sum();
-            highest += coefficient.abs();
-        }
-        // R's polynomial ends where its last coefficients are; what they move s by bounds what the missing ones do.
-        let tolerance = self.settings.tolerance;
-        let within = tables.gain / tolerance;
-        let end = tables.end_gain / (tolerance * tolerance).max(ROUNDING);
-        let error = highest * within.max(end) / scale;
-        if !(error <= 1.0) {
-            return Attempt::Rejected;
-        }
-        self.rest = rest;
-        self.tip = tip;
-        tables.end(&self.extended, &self.rest, &mut self.end);
-        Attempt::Accepted { error }
     }
 
     fn move_to_end(&mut self) {
@@ -345,16 +226,11 @@ impl Collocation {
         self.steps += 1;
     }
 
-    /// Counts the step, and takes the phase from the grid rather than from the last step, so that it cannot drift.
+    /// Counts the step, and takes the excitation from the grid.
     fn next_grid_point(&mut self) {
-        self.index += 1;
-        if self.index == self.steps_per_period() {
-            self.index = 0;
-            self.periods += 1;
-        }
+        self.grid.go_on();
         let dimension = self.part.modes * 2 + 1;
-        let angle = self.phase + TAU * self.index as f64 / self.steps_per_period() as f64;
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = self.grid.angle().sin_cos();
         self.extended[dimension] = self.beta * sine;
         self.extended[dimension + 1] = self.beta * cosine;
     }
@@ -362,9 +238,8 @@ impl Collocation {
     /// Doubles the step when the error leaves ample room and the grid allows it.
     fn lengthen(&mut self, error: f64) {
         const ROOM: f64 = 1.0 / 512.0;
-        if self.level > 0 && error < ROOM && self.index.is_multiple_of(2) {
-            self.level -= 1;
-            self.index /= 2;
+        if error < ROOM {
+            self.grid.double();
         }
     }
 
@@ -384,15 +259,6 @@ impl Collocation {
     }
 }
 
-/// Largest |a - b|, by pairs: one chain of eight comparisons would take as long as a pass of the iteration. A NaN
-/// may get lost, but not in the estimate of the error, which adds up all nodes.
-fn largest_difference(a: &NodeValues, b: &NodeValues) -> f64 {
-    let larger = |a: f64, b: f64| if a > b { a } else { b };
-    let eight: NodeValues = std::array::from_fn(|i| (a[i] - b[i]).abs());
-    let four: [f64; 4] = std::array::from_fn(|i| larger(eight[i], eight[i + 4]));
-    larger(larger(four[0], four[2]), larger(four[1], four[3]))
-}
-
 /// Checks length and finiteness of a state.
 ///
 /// # Errors
@@ -407,12 +273,4 @@ pub fn check_state(state: &[f64], expected: usize) -> Result<(), IntegrationErro
             Err(IntegrationError::InitialState { expected, got: format!("{} at place {}", state[i], i + 1) })
         }
     }
-}
-
-/// Steps a period at level 0: one step for about two thirds of a vibration of the faster of the excitation's
-/// second harmonic and the second mode, which R follows.
-pub(super) fn coarsest_steps(system: &ReducedSystem) -> usize {
-    let modes = &system.modes;
-    let fastest = (2.0 * system.parameters.omega).max(modes[modes.len().min(2) - 1].omega);
-    ((fastest * system.parameters.period() / 4.0).ceil() as usize).max(1)
 }

@@ -11,8 +11,6 @@ use egui::{Context as Egui, RawInput, Rect, vec2};
 pub(super) use question::request;
 
 use super::App;
-use super::layout::draw;
-use super::panels::Context;
 use super::session::Status;
 use super::sharing::Errand;
 use super::view::{Tab, View};
@@ -108,7 +106,6 @@ impl App {
             (time, frames) = (page.input(|input| input.time), 1);
         }
         theme::apply(&hidden, &theme::LIGHT);
-        let crew = self.crew.borrow();
         for frame in 0..frames {
             let input = RawInput {
                 screen_rect: Some(Rect::from_min_size(egui::Pos2::ZERO, size)),
@@ -117,20 +114,7 @@ impl App {
             };
             let output = hidden.run_ui(input, |ui| {
                 recorder::start(ui.ctx());
-                let mut commands = Vec::new();
-                let mut context = Context {
-                    view,
-                    session: &self.session,
-                    studies: &crew.studies,
-                    bench: &self.bench,
-                    course: &self.course,
-                    live: &self.live,
-                    address: &self.address,
-                    embed: self.embed.as_ref(),
-                    steps: (false, false),
-                    commands: &mut commands,
-                };
-                draw(&mut context, self.notice.as_deref(), ui);
+                self.draw(view, &mut Vec::new(), ui);
             });
             output.drop_without_applying_deltas();
         }

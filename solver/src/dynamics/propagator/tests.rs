@@ -1,5 +1,5 @@
 use super::super::linear::tests::{matrix, part, stiff};
-use super::super::tables::StepTables;
+use super::super::tables::{NodeMap, StepTables};
 use super::*;
 use crate::model::ParameterSet;
 

@@ -1,21 +1,22 @@
 //! The running lesson beside the plots: what is said, asked and to be done in the step in view. It stands at the right of
 //! a wide page and below a narrower one, where it can be folded.
 
-use egui::{
-    Align, Button, Color32, Frame, Id, Layout, Margin, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2,
-    vec2,
-};
+mod buttons;
+mod contents;
+mod heading;
 
+use egui::{Align, Frame, Id, Layout, Margin, Panel, ScrollArea, Ui};
+
+use self::contents::{asked, said};
+use self::heading::{heading, heading_in_row};
 use super::super::Context;
-use super::text;
-use crate::app::command::Command;
-use crate::app::lessons::course::{self, Action, Progress};
-use crate::app::lessons::data::{Goal, Question, Step};
+use crate::app::lessons::course::{self, Progress};
+use crate::app::lessons::data::Step;
 use crate::app::lessons::{Lesson, LessonId};
-use crate::app::text::{fill, tr};
+use crate::app::text::tr;
+use crate::app::theme;
 use crate::app::widgets::icon::BUTTON_SIDE;
 use crate::app::widgets::{Icon, icon_button};
-use crate::app::{fonts, theme};
 
 /// Width of the guide beside the plots, and of the page from which it stands there.
 const SIDE: f32 = 308.0;
@@ -27,8 +28,6 @@ const LOW: f32 = 0.28;
 const HIGH: f32 = 0.38;
 /// Space between the guide's row of buttons and its text.
 const SPACE: f32 = 8.0;
-/// Width below which the place in the lesson is given in figures.
-const PHONE: f32 = 480.0;
 
 /// A step that is shown.
 #[derive(Clone, Copy)]
@@ -81,7 +80,7 @@ pub(in crate::app) fn guide(context: &mut Context<'_>, ui: &mut Ui) {
                 },
             );
             ui.add_space(8.0);
-            ui.horizontal(|ui| walk(context, ui, shown));
+            ui.horizontal(|ui| buttons::walk(context, ui, shown));
         });
         return;
     }
@@ -149,178 +148,4 @@ fn side_by_side(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
             });
         }
     });
-}
-
-/// Title, place in the lesson, and the way out.
-fn heading(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
-    let tokens = theme::tokens(ui);
-    ui.horizontal_top(|ui| {
-        let title = RichText::new(shown.lesson.title.get()).font(fonts::semibold(theme::size::TITLE));
-        let width = ui.available_width() - 34.0;
-        ui.allocate_ui(vec2(width, 0.0), |ui| {
-            ui.set_min_width(width);
-            ui.add(egui::Label::new(title.color(tokens.text_strong)).wrap());
-        });
-        leave(context, ui);
-    });
-    track(ui, shown);
-    ui.label(RichText::new(place_in_words(shown)).small().color(tokens.text_weak));
-}
-
-/// The same with the buttons in one row, for the guide below.
-fn heading_in_row(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
-    let tokens = theme::tokens(ui);
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        leave(context, ui);
-        next(context, ui, shown);
-        back(context, ui, shown);
-        restart(context, ui, shown);
-        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            let phone = ui.ctx().content_rect().width() < PHONE;
-            let place = if phone {
-                format!("{}/{}", shown.number, shown.lesson.steps.len())
-            } else {
-                place_in_words(shown)
-            };
-            ui.label(RichText::new(place).small().color(tokens.text_weak));
-            let title = RichText::new(shown.lesson.title.get()).font(fonts::semibold(theme::size::TITLE));
-            ui.add(egui::Label::new(title.color(tokens.text_strong)).truncate());
-        });
-    });
-}
-
-fn place_in_words(shown: Shown) -> String {
-    fill("Step {number} of {count}", &[("number", &shown.number), ("count", &shown.lesson.steps.len())])
-}
-
-/// A bar a step, filled up to the one in view.
-fn track(ui: &mut Ui, shown: Shown) {
-    let tokens = theme::tokens(ui);
-    let count = shown.lesson.steps.len();
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 6.0), Sense::hover());
-    let gap = 4.0;
-    let width = (rect.width() - gap * (count - 1) as f32) / count as f32;
-    for index in 0..count {
-        let left = rect.left() + index as f32 * (width + gap);
-        let bar = Rect::from_min_size(pos2(left, rect.center().y - 1.5), vec2(width, 3.0));
-        let colour = if index < shown.number { tokens.accent } else { tokens.track };
-        ui.painter().rect_filled(bar, 1, colour);
-    }
-}
-
-fn said(ui: &mut Ui, shown: Shown) {
-    let colour = theme::tokens(ui).text;
-    for part in shown.step.text.get().split('\n') {
-        text::paragraph(ui, part, colour);
-    }
-}
-
-fn asked(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
-    if let Some(goal) = &shown.step.goal {
-        to_do(context, ui, goal, shown.progress.reached);
-        ui.add_space(8.0);
-    }
-    if let Some(question) = &shown.step.question {
-        to_answer(context, ui, question, shown.progress.answer);
-    }
-}
-
-/// A box for what is to be done or was said to it.
-fn boxed(ui: &mut Ui, edge: Color32, contents: &mut dyn FnMut(&mut Ui)) {
-    let tokens = theme::tokens(ui);
-    let frame = Frame::new().fill(tokens.tint(edge)).corner_radius(theme::radius::CONTROL);
-    let shown = frame.inner_margin(Margin { left: 12, right: 10, top: 8, bottom: 8 }).show(ui, |ui| {
-        ui.set_min_width(ui.available_width());
-        contents(ui);
-    });
-    let rect = shown.response.rect;
-    ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 1, edge);
-}
-
-fn to_do(context: &mut Context<'_>, ui: &mut Ui, goal: &Goal, reached: bool) {
-    let tokens = theme::tokens(ui);
-    let (edge, lead) = if reached { (tokens.ok, tr("✓ Done")) } else { (tokens.accent, tr("Your turn")) };
-    boxed(ui, edge, &mut |ui| {
-        ui.label(RichText::new(lead).font(fonts::semibold(theme::size::BODY)).color(edge));
-        text::paragraph(ui, goal.task.get(), if reached { tokens.text_weak } else { tokens.text });
-        if reached {
-            ui.add_space(4.0);
-            text::paragraph(ui, goal.reaction.get(), tokens.text);
-            return;
-        }
-        ui.add_space(2.0);
-        if ui.add(Button::new(tr("Show me")).stroke(egui::Stroke::new(1.0, edge))).clicked() {
-            context.commands.push(Command::Lesson(Action::Show));
-        }
-    });
-}
-
-fn to_answer(context: &mut Context<'_>, ui: &mut Ui, question: &Question, chosen: Option<usize>) {
-    let tokens = theme::tokens(ui);
-    text::paragraph(ui, &format!("**{}**", question.text.get()), tokens.text);
-    for (index, answer) in question.answers.iter().enumerate() {
-        let mine = chosen == Some(index);
-        let (sign, edge) = match (mine, answer.right) {
-            (false, _) => ("", tokens.text),
-            (true, true) => ("✓ ", tokens.ok),
-            (true, false) => ("✕ ", tokens.warning),
-        };
-        let words = format!("{sign}{}", answer.text.get());
-        let words = text::job(ui, &words, edge);
-        let button = Button::new(words).wrap().min_size(vec2(ui.available_width(), 0.0)).fill(tokens.field);
-        if ui.add(button).clicked() {
-            context.commands.push(Command::Lesson(Action::Answer(index)));
-        }
-        if mine {
-            boxed(ui, edge, &mut |ui| {
-                text::paragraph(ui, answer.reply.get(), tokens.text);
-            });
-        }
-    }
-}
-
-/// The buttons from step to step, from left to right.
-fn walk(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
-    back(context, ui, shown);
-    restart(context, ui, shown);
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| next(context, ui, shown));
-}
-
-fn leave(context: &mut Context<'_>, ui: &mut Ui) {
-    if icon_button(ui, Icon::Close, tr("Leave the lesson")).clicked() {
-        context.commands.push(Command::Lesson(Action::Leave));
-    }
-}
-
-fn restart(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
-    if shown.step.view.is_some()
-        && icon_button(ui, Icon::Reset, tr("Set the page as this step began")).clicked()
-    {
-        context.commands.push(Command::Lesson(Action::Restart));
-    }
-}
-
-fn back(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
-    if ui.add_enabled(shown.number > 1, Button::new(tr("Back"))).clicked() {
-        context.commands.push(Command::Lesson(Action::GoTo(shown.number - 1)));
-    }
-}
-
-/// Lit once the step is done; before that it goes on as well.
-fn next(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
-    let tokens = theme::tokens(ui);
-    let (words, action) = if shown.is_last() {
-        (tr("Finish"), Action::Finish)
-    } else {
-        (tr("Next"), Action::GoTo(shown.number + 1))
-    };
-    let button = if shown.is_done() {
-        let words = RichText::new(words).font(fonts::semibold(theme::size::BODY)).color(tokens.on_accent);
-        Button::new(words).fill(tokens.accent)
-    } else {
-        Button::new(words)
-    };
-    if ui.add(button).clicked() {
-        context.commands.push(Command::Lesson(action));
-    }
 }

@@ -1,0 +1,99 @@
+//! What each command changes: the one place that changes anything.
+
+use super::command::Command;
+use super::sharing::Errand;
+use super::view::MapWindow;
+use super::{App, bench, figures};
+use crate::scenario::Scenario;
+
+impl App {
+    /// Carries out a command; [`Self::step`] makes a step of it.
+    pub(super) fn carry_out(&mut self, command: Command) {
+        match command {
+            Command::Show(scenario) => self.show(*scenario),
+            Command::OpenTab(tab) => {
+                self.view.tab = tab;
+                self.view.enlarged = None;
+            }
+            Command::LookAt(window) => self.look_at(window),
+            Command::Chart(layer) => self.view.layer = layer,
+            Command::Sweep(sweep) => self.view.sweep = sweep,
+            Command::OpenPlane(plane) => self.view.plane = plane,
+            Command::Design(design) => self.view.design = *design,
+            Command::LookLive(live) => self.view.live = live,
+            Command::Live(action) => {
+                self.live.act(action, &self.view, &self.session);
+                if !self.live.sounds() {
+                    self.errands.push(Errand::Sound(Vec::new()));
+                }
+            }
+            Command::Adopt(Ok(scenario)) => self.show(*scenario),
+            Command::Adopt(Err(reason)) => self.bench.refusal = Some(reason),
+            Command::Lesson(action) => self.follow_lesson(action),
+            Command::Find(begin) => {
+                let question = begin.then(|| bench::questions::find(&self.view, &self.session));
+                let begun = self.crew.borrow_mut().studies.bench.search(question, &self.view);
+                self.bench.refusal = begun.err();
+            }
+            Command::Measure(Some(reading)) => self.bench.measured.read(reading),
+            Command::Measure(None) => self.bench.measured = bench::measured::Measured::default(),
+            Command::LoadFigure(number) => self.load_figure(number),
+            Command::Enlarge(panel) => self.view.enlarged = panel,
+            Command::Pin(keep) => {
+                self.session.pin(keep);
+                let crew = self.crew.borrow();
+                self.bench.pinned = keep.then(|| crew.studies.bench.pinned(&self.view.scenario));
+            }
+            Command::SetDark(dark) => self.view.dark = Some(dark),
+            Command::Speak(language) => self.view.language = Some(language),
+            Command::SetContrast(contrast) => self.view.contrast = Some(contrast),
+            Command::FollowSystem => (self.view.dark, self.view.contrast) = (None, None),
+            Command::SetProjector(large) => self.view.projector = large,
+            Command::MoveBeam(moves) => self.view.beam_moves = moves,
+            Command::DismissNotice => self.notice = None,
+            Command::Undo => self.undo(),
+            Command::Redo => self.redo(),
+            Command::SaveFile => self.save_file(),
+            Command::Export(title, format) => self.exports.push((title, format)),
+            Command::Report => self.save_report(),
+            Command::OpenFile => self.errands.push(Errand::Open),
+        }
+    }
+
+    /// Computes and shows `scenario`; the window of the map follows it.
+    pub(super) fn show(&mut self, scenario: Scenario) {
+        self.bench.refusal = None;
+        if self.view.scenario.model != scenario.model {
+            self.bench.before = self.view.scenario.model;
+        }
+        self.session.ask(&scenario);
+        if let Some(boundaries) = &self.session.boundaries {
+            self.view.map = boundaries.follow(self.view.map, scenario.parameters.omega);
+        }
+        self.view.scenario = scenario;
+    }
+
+    /// Opens a window of the map; a point outside of it comes along.
+    fn look_at(&mut self, window: MapWindow) {
+        self.view.map = window;
+        let Some(boundaries) = &self.session.boundaries else { return };
+        let (low, high) = boundaries.range(window);
+        let omega = self.view.scenario.parameters.omega;
+        if let Some(tongue) = window.resonance().and_then(|resonance| boundaries.tongue(resonance))
+            && !(low..=high).contains(&omega)
+        {
+            let mut scenario = self.view.scenario.clone();
+            scenario.parameters.omega = tongue.published_frequency;
+            self.show(scenario);
+        }
+    }
+
+    fn load_figure(&mut self, number: u8) {
+        self.view.figure = number;
+        let Some(figure) = figures::figure(number) else { return };
+        if let Some(scenario) = figure.scenario() {
+            self.view.map = figure.resonance().map_or(self.view.map, MapWindow::about);
+            self.show(scenario);
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! Random views, every field of them.
+
+use proptest::collection::vec;
+use proptest::option;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+use crate::app::lessons::{LessonId, STEPS};
+use crate::app::text::Language;
+use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched};
+use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
+use crate::app::view::{Layer, MapWindow, Output, Panel, SweepView, Tab, View};
+use crate::dynamics::sweep::Dwell;
+use crate::jobs::design::trust::Quantity;
+use crate::jobs::study::curves;
+use crate::model::materials::Ceramic;
+use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet};
+use crate::scenario::{END_TIME, ModelChoice, Scenario, VERSION};
+use crate::theory::Resonance;
+
+const TABS: [Tab; 7] =
+    [Tab::Explore, Tab::Live, Tab::Stability, Tab::Sweep, Tab::Design, Tab::Paper, Tab::Lessons];
+const MAPS: [MapWindow; 4] = [MapWindow::All, MapWindow::First, MapWindow::Sum, MapWindow::Second];
+const LAYERS: [Layer; 4] = [Layer::Multiplier, Layer::Motion, Layer::Voltage, Layer::Power];
+const OUTPUTS: [Output; 3] = [Output::Voltage, Output::Power, Output::Tip];
+const PANELS: [Panel; 4] = [Panel::StabilityMap, Panel::Chart, Panel::OrbitDiagram, Panel::Basins];
+const SCALINGS: [ElectricalScaling; 2] = ElectricalScaling::ALL;
+
+/// A number anywhere in a range: round, small, an end, or with all its digits.
+fn within((low, high): (f64, f64)) -> impl Strategy<Value = f64> {
+    let anywhere = (0.0..=1.0_f64).prop_map(move |part| (low + part * (high - low)).clamp(low, high));
+    let small = (-12.0..0.0_f64).prop_map(move |power| (high * 10.0_f64.powf(power)).clamp(low, high));
+    let round = (0..=20_i32).prop_map(move |part| (f64::from(part) * 1e-3).clamp(low, high));
+    prop_oneof![anywhere, small, round, Just(low), Just(high)]
+}
+
+fn parameters() -> impl Strategy<Value = ParameterSet> {
+    Parameter::ALL.map(|parameter| option::of(within(parameter.range()))).prop_map(|numbers| {
+        let mut set = ParameterSet::default();
+        for (parameter, number) in Parameter::ALL.into_iter().zip(numbers) {
+            *parameter.get_mut(&mut set) = number.unwrap_or(parameter.get(&set));
+        }
+        set
+    })
+}
+
+fn device() -> impl Strategy<Value = Device> {
+    let numbers = Dimension::ALL.map(|dimension| option::of(within(dimension.accepted())));
+    (numbers, any::<bool>(), any::<bool>(), option::of(select(&Ceramic::ALL[..]))).prop_map(
+        |(numbers, repelling, open, ceramic)| {
+            let mut device = Device { repelling, ceramic, ..Device::default() };
+            for (dimension, number) in Dimension::ALL.into_iter().zip(numbers) {
+                *dimension.get_mut(&mut device) = number.unwrap_or(dimension.get(&device));
+            }
+            if open {
+                device.resistance = f64::INFINITY;
+            }
+            device
+        },
+    )
+}
+
+fn scenario() -> impl Strategy<Value = Scenario> {
+    let law = prop_oneof![
+        Just(ForceLaw::Quadratic),
+        Just(ForceLaw::Exact),
+        (2..=ForceLaw::MAX_DEGREE).prop_map(ForceLaw::Taylor),
+    ];
+    let model = (1..=8_usize, law).prop_flat_map(|(modes, force)| {
+        (Just(ModelChoice { modes, force }), option::of(vec(within((-1e6, 1e6)), 2 * modes + 1)))
+    });
+    let device = prop_oneof![Just(None), Just(Some(Device::default())), device().prop_map(Some)];
+    (parameters(), model, within(END_TIME), device, select(&SCALINGS[..])).prop_map(
+        |(parameters, (model, initial), t_end, device, scaling)| Scenario {
+            version: VERSION,
+            parameters,
+            model,
+            initial,
+            t_end,
+            device,
+            scaling,
+        },
+    )
+}
+
+fn sweep() -> impl Strategy<Value = SweepView> {
+    let range = select(&Parameter::ALL[..]).prop_flat_map(|parameter| {
+        let end = || within(parameter.range());
+        (Just(parameter), option::of((end(), end())))
+    });
+    let dwell = (0..=5000_usize, 1..=1000_usize);
+    (range, 2..=2000_usize, dwell, select(&OUTPUTS[..])).prop_map(
+        |((parameter, range), count, (discarded, kept), output)| SweepView {
+            parameter,
+            range,
+            count,
+            dwell: Dwell { discarded, kept },
+            output,
+        },
+    )
+}
+
+fn limits() -> impl Strategy<Value = Limits> {
+    let positive = || within((1e-12, 1e12));
+    let voltage =
+        option::of((positive(), positive())).prop_map(|ends| ends.map(|(a, b)| (a.min(b), a.max(b))));
+    (voltage, within((1e-12, 1.0)), positive(), positive())
+        .prop_map(|(voltage, gap, deflection, slope)| Limits { voltage, gap, deflection, slope })
+}
+
+fn side() -> impl Strategy<Value = Side> {
+    select(&Dimension::ALL[..]).prop_flat_map(|dimension| {
+        let end = || within(dimension.accepted());
+        option::of((end(), end())).prop_map(move |range| Side { dimension, range })
+    })
+}
+
+fn search() -> impl Strategy<Value = SearchView> {
+    const AIMS: [Aim; 5] = [Aim::Power, Aim::PerG2, Aim::Voltage, Aim::Band, Aim::Threshold];
+    (select(&AIMS[..]), side(), side(), option::of(side()), 1..=500_usize)
+        .prop_map(|(aim, x, y, third, generations)| SearchView { aim, sides: [x, y], third, generations })
+}
+
+fn design() -> impl Strategy<Value = DesignView> {
+    const PAGES: [Page; 6] =
+        [Page::Harvest, Page::Load, Page::Materials, Page::Trust, Page::Search, Page::Measured];
+    const WATCHED: [Watched; 5] =
+        [Watched::Power, Watched::PerG2, Watched::Voltage, Watched::Peak, Watched::Tip];
+    let resonance = || select(&Resonance::ALL[..]);
+    let quantity = prop_oneof![
+        Just(Quantity::Voltage),
+        Just(Quantity::Power),
+        Just(Quantity::Tip),
+        resonance().prop_map(Quantity::Threshold),
+    ];
+    let front = (select(&PAGES[..]), select(&WATCHED[..]), 1..=8_usize, resonance(), quantity);
+    let flags = any::<[bool; 3]>();
+    let window = option::of((within(FREQUENCIES), within(FREQUENCIES)));
+    (front, flags, window, option::of(within(POWERS)), limits(), search()).prop_map(
+        |((page, watched, mode, resonance, quantity), flags, window, least, limits, search)| DesignView {
+            page,
+            dimensionless: flags[0],
+            holds_acceleration: flags[1],
+            watched,
+            logarithmic: flags[2],
+            window,
+            least,
+            limits,
+            mode,
+            resonance,
+            quantity,
+            search,
+        },
+    )
+}
+
+fn live() -> impl Strategy<Value = LiveView> {
+    let trace = select(&[Trace::Voltage, Trace::Tip][..]);
+    (trace, within(SPEEDS), WINDOWS.0..=WINDOWS.1, within(KICKS))
+        .prop_map(|(trace, speed, periods, kick)| LiveView { trace, speed, periods, kick })
+}
+
+/// Every field is named: one that is added to a view is asked for here by the compiler.
+pub(super) fn view() -> impl Strategy<Value = View> {
+    let languages = option::of(select(&Language::ALL[..]));
+    let looks =
+        (option::of(any::<bool>()), any::<bool>(), any::<bool>(), option::of(any::<bool>()), languages);
+    let front = (select(&TABS[..]), select(&MAPS[..]), select(&LAYERS[..]), option::of(select(&PANELS[..])));
+    let plane = (0..5_usize, 1..5_usize)
+        .prop_map(|(x, step)| [curves::PARAMETERS[x], curves::PARAMETERS[(x + step) % 5]]);
+    let lesson = (option::of(select(LessonId::all().collect::<Vec<_>>())), 1..=STEPS);
+    (scenario(), front, sweep(), plane, 2..=12_u8, (design(), live()), looks, lesson)
+        .prop_map(
+            |(scenario, (tab, map, layer, enlarged), sweep, plane, figure, (design, live), looks, lesson)| {
+                View {
+                    scenario,
+                    tab,
+                    dark: looks.0,
+                    contrast: looks.3,
+                    language: looks.4,
+                    projector: looks.1,
+                    map,
+                    figure,
+                    enlarged,
+                    beam_moves: looks.2,
+                    layer,
+                    sweep,
+                    plane,
+                    design,
+                    live,
+                    lesson: lesson.0,
+                    step: lesson.1,
+                }
+            },
+        )
+        // Attracting magnets can leave no equilibrium.
+        .prop_filter("a view that can be computed", |view| view.check().is_ok())
+}

@@ -1,0 +1,157 @@
+//! The map of a result over two dimensions of the device.
+
+use egui::{Color32, Id, Ui};
+use egui_plot::PlotBounds;
+
+use super::in_digits;
+use crate::app::command::Command;
+use crate::app::panels::{Context, computing, device};
+use crate::app::text::{fill, tr, within};
+use crate::app::view::Panel;
+use crate::app::view::design::Aim;
+use crate::app::widgets::number::{self, round_significant};
+use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::{HATCH, chips, colour_bar, draw_cells, on_hatching, raster, recorder, swatches};
+use crate::app::{bench, colours, theme};
+use crate::jobs::design::find::{Evaluation, Objective};
+use crate::jobs::study::Study as _;
+use crate::jobs::study::map::DesignMap;
+use crate::model::Dimension;
+
+/// Draws the map's card.
+pub(in crate::app::panels::design) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    let hint = match context.studies.bench.map.study() {
+        Some(map) if !map.finished() => computing(map.progress()),
+        _ => tr("drag or click to go there").to_owned(),
+    };
+    context.plot_card(ui, Panel::DesignMap, tr("Map"), &hint, |context, ui| {
+        let Some(map) = context.studies.bench.map.study() else { return };
+        header(context, ui, map);
+        match map.failure() {
+            Some(why) => plot_style::no_data(ui, ui.available_rect_before_wrap(), why),
+            None => plot(context, ui, map),
+        }
+    });
+}
+
+/// What is mapped, with its unit.
+fn mapped(aim: Aim) -> &'static str {
+    match aim {
+        Aim::Power => tr("power in the load [W]"),
+        Aim::PerG2 => tr("power per g² [W/g²]"),
+        Aim::Voltage => tr("voltage, rms [V]"),
+        Aim::Band => tr("width of the band [Hz]"),
+        Aim::Threshold => tr("lowest excitation β of the resonance"),
+    }
+}
+
+fn header(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
+    let mut aim = context.view.design.search.aim;
+    let choices = [
+        (Aim::Power, tr("power")),
+        (Aim::PerG2, tr("per g²")),
+        (Aim::Voltage, tr("voltage")),
+        (Aim::Band, tr("band")),
+        (Aim::Threshold, tr("threshold")),
+    ];
+    let tokens = theme::tokens(ui);
+    let (low, high) = extremes(map);
+    ui.horizontal_wrapped(|ui| {
+        if chips(ui, tr("Mapped"), &mut aim, &choices) {
+            context.redesign(|design| design.search.pursue(aim));
+        }
+    });
+    ui.horizontal(|ui| {
+        let (from, to) = if aim == Aim::Threshold { (high, low) } else { (0.0, high) };
+        colour_bar(ui, &in_digits(from, aim), &in_digits(to, aim), &colours::sequential);
+    });
+    swatches(
+        ui,
+        &[(tokens.danger, tr("hatched: beyond a limit")), (tokens.track, tr("no motion, no device"))],
+    );
+}
+
+/// Lowest and highest value known.
+fn extremes(map: &DesignMap) -> (f64, f64) {
+    let (columns, rows) = map.size();
+    let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+    let values = cells.filter_map(|place| map.cell(place).and_then(|cell| cell.value));
+    let (low, high) =
+        values.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
+    (if low.is_finite() { low } else { 0.0 }, high)
+}
+
+fn axis(dimension: Dimension, logarithmic: bool) -> Axis {
+    let (name, symbol, unit, ..) = device::words(dimension);
+    let axis = Axis::new(within(name), symbol).unit(unit);
+    if logarithmic { axis.logarithmic() } else { axis }
+}
+
+fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
+    let tokens = theme::tokens(ui);
+    let search = context.view.design.search;
+    let (low, high) = extremes(map);
+    let inverted = matches!(map.question().objective, Objective::Threshold(_));
+    let colour = |cell: &Evaluation, hatched: bool| -> Color32 {
+        let Some(value) = cell.value else { return tokens.track };
+        let share =
+            if inverted { (high - value) / (high - low).max(1e-300) } else { value / high.max(1e-300) };
+        let colour = colours::sequential(share);
+        if hatched { colour.lerp_to_gamma(tokens.danger, 0.9) } else { colour }
+    };
+    let paint = |column: usize, row: usize| {
+        let cell = map.shown((column / HATCH, row / HATCH))?;
+        Some(colour(cell, cell.violation > 0.0 && on_hatching(column, row)))
+    };
+    let generation = context.studies.bench.map.generation();
+    let revision = map.version() ^ (generation << 32) ^ tokens.number() << 62;
+    let (columns, rows) = map.size();
+    let picture = raster(ui, Id::unique("design map"), revision, (HATCH * columns, HATCH * rows), &paint);
+    let variables = &map.question().variables;
+    let sides = search.sides.map(|side| side.dimension);
+    let factors = sides.map(|dimension| device::words(dimension).3);
+    let axes = [0, 1].map(|i| axis(sides[i], variables[i].logarithmic));
+    let place = |i: usize, value: f64| axes[i].coordinate(factors[i] * value);
+    let range = |i: usize| (place(i, variables[i].range.0), place(i, variables[i].range.1));
+    let (x, y) = (range(0), range(1));
+    let Ok(present) = bench::device(&context.view.scenario) else { return };
+    let here = [0, 1].map(|i| place(i, sides[i].get(&present)));
+    let best = map.best();
+    let id = ("design map", sides.map(|side| side as u8));
+    let shown = plot_style::plot(ui, id, &axes[0], &axes[1])
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_double_click_reset(false)
+        .show(ui, |plot| {
+            plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
+            if let Some(picture) = &picture {
+                draw_cells(plot, picture, HATCH, x, y, if map.version() == 0 { 0.4 } else { 1.0 });
+                let value = |column, row| map.cell((column, row))?.value.map(number::exact);
+                recorder::cells(plot, mapped(search.aim), map.size(), [x, y], &value);
+            }
+            if let Some((at, evaluation)) = best {
+                let values = map.values(at);
+                let at = egui_plot::PlotPoint::new(place(0, values[0]), place(1, values[1]));
+                let name = evaluation.value.map_or(String::new(), |value| in_digits(value, search.aim));
+                plot_style::special_point(plot, &fill("best: {name}", &[("name", &name)]), at);
+            }
+        });
+    let drag = plot_style::operating_point(ui, &shown, tr("Device in view"), here);
+    if let Some(moved) = drag.moved {
+        let mut device = present;
+        for i in [0, 1] {
+            let (low, high) = variables[i].range;
+            let value = (axes[i].value(moved[i]) / factors[i]).clamp(low, high);
+            *sides[i].get_mut(&mut device) = round_significant(value, 5);
+        }
+        adopt(context, device);
+    }
+}
+
+fn adopt(context: &mut Context<'_>, device: crate::model::Device) {
+    let mut scenario = context.view.scenario.clone();
+    let scaling = scenario.scaling;
+    let taken = scenario.set_device(device, scaling).map(|()| Box::new(scenario));
+    context.commands.push(Command::Adopt(taken.map_err(|error| error.to_string())));
+}

@@ -1,0 +1,107 @@
+//! Frequency and motion of the base.
+
+use std::f64::consts::TAU;
+
+use egui::{RichText, Ui};
+
+use super::{adopt, choose_units, device_of, round, words};
+use crate::app::panels::Context;
+use crate::app::panels::controls::{FREQUENCIES, resonance_marks, short};
+use crate::app::text::{fill, reworded, tr};
+use crate::app::theme;
+use crate::app::widgets::number::round_significant;
+use crate::app::widgets::{Mark, ParameterSlider, chips};
+use crate::model::{Device, Dimension};
+
+/// Largest acceleration (g) on the slider.
+const MOST_ACCELERATION: f64 = 5.0;
+const LEAST_ACCELERATION: f64 = 1e-3;
+
+/// Frequency and base motion.
+pub(in crate::app::panels) fn excitation(context: &mut Context<'_>, ui: &mut Ui) {
+    choose_units(context, ui);
+    let Some(device) = device_of(context, ui) else { return };
+    let mut changed = device;
+    let scenario = &context.view.scenario;
+    frequency(context, ui, &mut changed);
+    let mut holds = context.view.design.holds_acceleration;
+    if holds && changed.frequency != device.frequency {
+        changed = changed.with_acceleration(device.acceleration());
+    }
+    if holds {
+        let mut acceleration = round(device.acceleration());
+        let amplitude =
+            fill("amplitude {millimetres} mm", &[("millimetres", &short(1e3 * device.base_amplitude))]);
+        ParameterSlider::new(
+            tr("Shaking"),
+            "a",
+            &mut acceleration,
+            0.0..=MOST_ACCELERATION.max(device.acceleration()),
+        )
+        .logarithmic_from(LEAST_ACCELERATION)
+        .unit("g")
+        .tooltip(tr("Amplitude of the base's acceleration, in units of standard gravity."))
+        .secondary(&amplitude)
+        .show(ui);
+        if acceleration != round(device.acceleration()) {
+            changed = changed.with_acceleration(acceleration);
+        }
+    } else {
+        let (name, symbol, unit, factor, tooltip) = words(Dimension::BaseAmplitude);
+        let mut amplitude = round(factor * device.base_amplitude);
+        let high = (factor * Dimension::BaseAmplitude.usual().1).max(amplitude);
+        let acceleration = format!("{} g", short(device.acceleration()));
+        ParameterSlider::new(name, symbol, &mut amplitude, 0.0..=high)
+            .logarithmic_from(1e-3)
+            .unit(unit)
+            .tooltip(tooltip)
+            .secondary(&acceleration)
+            .show(ui);
+        if amplitude != round(factor * device.base_amplitude) {
+            changed.base_amplitude = amplitude / factor;
+        }
+    }
+    if changed != device {
+        adopt(context, changed, scenario.scaling);
+    }
+    let choices = [(true, tr("hold the g")), (false, tr("hold the mm"))];
+    if chips(ui, tr("When the frequency changes"), &mut holds, &choices) {
+        context.redesign(|design| design.holds_acceleration = holds);
+    }
+    if let Some(reason) = &context.bench.refusal {
+        let colour = theme::tokens(ui).danger;
+        let text = fill("Not changed: {reason}.", &[("reason", &reworded(reason))]);
+        ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
+    }
+    ui.add_space(6.0);
+}
+
+fn frequency(context: &Context<'_>, ui: &mut Ui, device: &mut Device) {
+    let units = context.view.scenario.units();
+    let present = round(device.frequency);
+    let mut value = present;
+    let boundaries = context.session.boundaries.as_ref();
+    let mut marks: Vec<Mark> = boundaries.map_or_else(Vec::new, resonance_marks);
+    for mark in &mut marks {
+        mark.value = round_significant(units.hertz(mark.value), 6);
+    }
+    let (lowest, highest) = FREQUENCIES;
+    let low = round(units.hertz(lowest)).min(value);
+    let high = round(units.hertz(highest)).max(value);
+    let period = fill(
+        "period {seconds} s  ·  ω = {omega}",
+        &[
+            ("seconds", &short(1.0 / device.frequency)),
+            ("omega", &short(TAU * device.frequency * units.time)),
+        ],
+    );
+    ParameterSlider::new(tr("Frequency"), "f", &mut value, low..=high)
+        .marks(&marks)
+        .unit("Hz")
+        .tooltip(tr("Frequency of the base's motion. Click a mark to go to a resonance."))
+        .secondary(&period)
+        .show(ui);
+    if value != present {
+        device.frequency = value;
+    }
+}

@@ -1,0 +1,123 @@
+//! Beam, magnets, circuit and ceramic, and the way back to the paper's device.
+
+use egui::{RichText, Ui};
+
+use super::{adopt, device_of, slider, words};
+use crate::app::command::Command;
+use crate::app::panels::Context;
+use crate::app::panels::controls::short;
+use crate::app::panels::structure::model_and_start;
+use crate::app::text::tr;
+use crate::app::theme;
+use crate::app::widgets::number::with_unit;
+use crate::app::widgets::{Fold, chips};
+use crate::model::inverse::Magnets;
+use crate::model::{Device, Dimension, ElectricalScaling, Parameter};
+use crate::scenario::Scenario;
+
+/// Beam, magnets, circuit, ceramic, model and start.
+pub(in crate::app::panels) fn structure(context: &mut Context<'_>, ui: &mut Ui) {
+    if let Some(device) = device_of(context, ui) {
+        let before = context.view.scenario.scaling;
+        let (mut changed, mut scaling) = (device, before);
+        beam(ui, &mut changed);
+        magnets(ui, &mut changed);
+        circuit(ui, &mut changed, &mut scaling);
+        if (changed, scaling) != (device, before) {
+            adopt(context, changed, scaling);
+        }
+    }
+    let scenario: Scenario = context.view.scenario.clone();
+    let mut changed = scenario.clone();
+    model_and_start(ui, &mut changed);
+    if changed != scenario {
+        context.edit(|scenario| *scenario = changed);
+    }
+    paper(context, ui);
+}
+
+fn beam(ui: &mut Ui, device: &mut Device) {
+    let of = |dimension: Dimension, device: &Device| short(words(dimension).3 * dimension.get(device));
+    let summary =
+        format!("L {} mm  ·  {} g", of(Dimension::BeamLength, device), of(Dimension::BeamMass, device));
+    Fold::new(tr("Beam")).summary(&summary).default_open(true).show(ui, |ui| {
+        for dimension in [
+            Dimension::BeamLength,
+            Dimension::BeamMass,
+            Dimension::TipMass,
+            Dimension::YoungsModulus,
+            Dimension::SecondMoment,
+            Dimension::Viscosity,
+            Dimension::Gravity,
+        ] {
+            slider(ui, device, dimension);
+        }
+    });
+}
+
+fn magnets(ui: &mut Ui, device: &mut Device) {
+    let kinds = [
+        (Magnets::Repelling, tr("repelling")),
+        (Magnets::Attracting, tr("attracting")),
+        (Magnets::Absent, tr("absent")),
+    ];
+    let mut kind = device.magnets();
+    let word = kinds.iter().find(|(of, _)| *of == kind).map_or("", |(_, word)| *word);
+    let summary = format!("{word}  ·  D {} mm", short(1e3 * device.magnet_distance));
+    Fold::new(tr("Magnets")).summary(&summary).default_open(true).show(ui, |ui| {
+        if chips(ui, tr("Magnets"), &mut kind, &kinds) {
+            *device = device.with_magnets(kind, &Device::default());
+        }
+        ui.push_id("magnets", |ui| {
+            for dimension in [
+                Dimension::MagnetDistance,
+                Dimension::FluxDensity,
+                Dimension::MagnetLength,
+                Dimension::MagnetRadius,
+                Dimension::MagnetArea,
+                Dimension::Permeability,
+            ] {
+                slider(ui, device, dimension);
+            }
+        });
+    });
+}
+
+fn circuit(ui: &mut Ui, device: &mut Device, scaling: &mut ElectricalScaling) {
+    let load = with_unit(device.resistance, "Ω");
+    Fold::new(tr("Circuit and ceramic")).summary(&load).default_open(true).show(ui, |ui| {
+        for dimension in [
+            Dimension::Resistance,
+            Dimension::Capacitance,
+            Dimension::Coupling,
+            Dimension::CeramicThickness,
+            Dimension::LossTangent,
+        ] {
+            slider(ui, device, dimension);
+        }
+        let choices = [
+            (ElectricalScaling::AsPrinted, tr("as printed")),
+            (ElectricalScaling::Consistent, tr("consistent units")),
+        ];
+        ui.add_space(4.0);
+        chips(ui, tr("Electrical scaling"), scaling, &choices);
+        let text = RichText::new(scaling.explanation()).small().color(theme::tokens(ui).text_weak);
+        ui.add(egui::Label::new(text).wrap());
+    });
+}
+
+/// Back to the paper's device, which keeps its excitation.
+fn paper(context: &mut Context<'_>, ui: &mut Ui) {
+    ui.add_space(4.0);
+    if ui.button(tr("Table 1: the paper's device")).clicked() {
+        let own = context.view.scenario.parameters;
+        let mut scenario = context.view.scenario.clone();
+        let taken = scenario.set_device(Device::default(), ElectricalScaling::AsPrinted).map(|()| {
+            for parameter in [Parameter::Omega, Parameter::Beta, Parameter::Alpha] {
+                *parameter.get_mut(&mut scenario.parameters) = parameter.get(&own);
+            }
+            Box::new(scenario)
+        });
+        context.commands.push(Command::Adopt(taken.map_err(|error| error.to_string())));
+    }
+}
