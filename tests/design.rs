@@ -7,7 +7,7 @@ use harvester_lab::jobs::design::band::{half_power, total, usable};
 use harvester_lab::jobs::design::find::{FindQuestion, Objective, Variable, evaluate};
 use harvester_lab::jobs::design::load::{best, best_frequency};
 use harvester_lab::jobs::design::materials::with_ceramic;
-use harvester_lab::jobs::design::trust::{LAWS, Quantity, law_error, trust_entry};
+use harvester_lab::jobs::design::trust::{LAWS, Quantity, force_beyond_linear, law_error, trust_entry};
 use harvester_lab::jobs::design::{Plant, operating};
 use harvester_lab::jobs::motions::{Coordinate, at_place};
 use harvester_lab::jobs::study::find::FindStudy;
@@ -169,6 +169,15 @@ fn trust_is_a_table_of_modes_and_laws() -> TestResult {
     let far = LAWS.map(|law| law_error(&system, law, -0.0835).rest.unwrap_or(f64::NAN).abs());
     assert!(far[0] > 0.3 && far[1] < far[0] && far[2] < far[1] && far[3] == 0.0, "{far:?}");
     assert_eq!(law_error(&system, ForceLaw::Quadratic, -0.2).rest, None);
+    // The force beyond the linear part is Eq. (11) itself less its value and its slope at rest.
+    let (at, gap, (c1, c2)) = (system.magnet(), system.equilibrium.gap, (system.c1, c2));
+    for tip in [-0.08, -0.01, 0.02, 0.1] {
+        let of = |law| force_beyond_linear(&system, law, tip).ok_or("no contact");
+        let true_rest = at.force(gap) - at.force(gap + tip) - c1 * tip;
+        assert!((of(ForceLaw::Exact)? - true_rest).abs() < 1e-12 * at.force(gap + tip), "{tip}");
+        assert!((of(ForceLaw::Quadratic)? / (c2 * tip * tip) - 1.0).abs() < 1e-10, "{tip}");
+    }
+    assert_eq!(force_beyond_linear(&system, ForceLaw::Exact, -gap), None);
     Ok(())
 }
 

@@ -22,7 +22,7 @@ pub enum Part {
 }
 
 /// The parts with their names in addresses, and what they are called.
-pub const PARTS: [(Part, &str, &str); 16] = [
+pub const PARTS: [(Part, &str, &str); 17] = [
     (Part::Verdict, "verdict", marked("Verdict")),
     (Part::Plot(Panel::StabilityMap), "map", marked("Stability map")),
     (Part::Plot(Panel::PhasePortrait), "phase", marked("Phase portrait")),
@@ -39,6 +39,7 @@ pub const PARTS: [(Part, &str, &str); 16] = [
     (Part::Plot(Panel::Response), "response", marked("Response curves")),
     (Part::Plot(Panel::Harvest), "harvest", marked("Over frequency")),
     (Part::Plot(Panel::Load), "load", marked("Over the load")),
+    (Part::Plot(Panel::MagnetForce), "force", marked("The magnets' force")),
 ];
 
 /// What can be changed in an embedded page.
@@ -196,7 +197,7 @@ pub const fn tab(panel: Panel) -> Tab {
         | Panel::Evidence => Tab::Stability,
         Panel::OrbitDiagram | Panel::Response => Tab::Sweep,
         Panel::Oscilloscope | Panel::LivePortrait | Panel::LiveBeam => Tab::Live,
-        Panel::Harvest | Panel::Load | Panel::DesignMap | Panel::Measured => Tab::Design,
+        Panel::Harvest | Panel::Load | Panel::MagnetForce | Panel::DesignMap | Panel::Measured => Tab::Design,
     }
 }
 

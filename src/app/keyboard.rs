@@ -95,6 +95,7 @@ fn next_plot(view: &View) -> Option<Panel> {
         (Tab::Sweep, _) => &sweep::PANELS,
         (Tab::Design, Page::Harvest) => &[Panel::Harvest],
         (Tab::Design, Page::Load) => &[Panel::Load],
+        (Tab::Design, Page::Trust) => &[Panel::MagnetForce],
         (Tab::Design, Page::Search) => &[Panel::DesignMap],
         (Tab::Design, Page::Measured) => &[Panel::Measured],
         (Tab::Design | Tab::Paper | Tab::Lessons, _) => &[],

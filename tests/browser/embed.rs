@@ -180,7 +180,7 @@ fn every_part_fits_into_frames_of_slides() {
         (960, 540, "map,phase,poincare,time,beam", "alpha,beta,omega,modes", 4),
         (360, 640, "chart,multipliers", "omega,force", 2),
         (960, 540, "curves,basins,spectrum,evidence", "", 4),
-        (960, 540, "orbit,response,harvest,load", "resistance,omega", 4),
+        (960, 540, "orbit,response,load,force", "resistance,omega", 4),
     ];
     for (index, (width, height, parts, controls, count)) in cases.into_iter().enumerate() {
         let hash = "#v=1&alpha=1e-4&beta=0.01&omega=8.0969";

@@ -30,6 +30,8 @@ pub(in crate::app) struct Reading {
     pub columns: Columns,
     /// What the first of them is.
     pub domain: Domain,
+    /// By how many excitation periods the computed run is moved.
+    pub shift: f64,
 }
 
 /// A file.
@@ -71,7 +73,7 @@ impl Measured {
                 let x_unit = unit_of(&layout, 0, &[("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("khz", 1e3)]);
                 let y_unit = unit_of(&layout, 1, &[("mv", 1e-3), ("kv", 1e3)]);
                 let columns = Columns { x_unit, y_unit, ..Columns::default() };
-                let reading = Reading { columns, domain };
+                let reading = Reading { columns, domain, ..Reading::default() };
                 self.file = Some(File {
                     name: name.to_owned(),
                     text,

@@ -181,7 +181,11 @@ impl Studies {
             offer(&mut self.response, questions::response(view, session));
         }
         if embed.is_some() {
-            for (panel, page) in [(Panel::Harvest, Page::Harvest), (Panel::Load, Page::Load)] {
+            for (panel, page) in [
+                (Panel::Harvest, Page::Harvest),
+                (Panel::Load, Page::Load),
+                (Panel::MagnetForce, Page::Trust),
+            ] {
                 if wanted(panel) {
                     let design = DesignView { page, ..view.design.clone() };
                     self.bench.follow(&View { design, ..view.clone() }, session);

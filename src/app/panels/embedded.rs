@@ -88,7 +88,9 @@ fn columns(count: usize, room: egui::Vec2) -> usize {
 
 fn draw(context: &mut Context<'_>, ui: &mut Ui, part: Part) {
     match part {
-        Part::Plot(panel @ (Panel::Harvest | Panel::Load)) => design::plot_alone(context, ui, panel),
+        Part::Plot(panel @ (Panel::Harvest | Panel::Load | Panel::MagnetForce)) => {
+            design::plot_alone(context, ui, panel)
+        }
         Part::Plot(panel) => plots::draw(context, ui, panel),
         // The card's own title and margin take the rest.
         Part::Beam => beam::show_in(context, ui, ui.available_height() - BEAM_FRAME),

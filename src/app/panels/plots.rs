@@ -35,7 +35,7 @@ pub(super) fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
         Panel::Evidence => evidence::show(context, ui),
         Panel::Basins => basins::show(context, ui),
         // These have pages of their own on the Design tab.
-        Panel::Harvest | Panel::Load | Panel::DesignMap | Panel::Measured => {}
+        Panel::Harvest | Panel::Load | Panel::MagnetForce | Panel::DesignMap | Panel::Measured => {}
         Panel::Oscilloscope => live::scope::show(context, ui),
         Panel::LivePortrait => live::portrait::show(context, ui),
         Panel::LiveBeam => live::beam::show(context, ui),

@@ -12,8 +12,28 @@ use crate::app::{fonts, theme};
 use crate::dynamics::Outcome;
 use crate::model::Demand;
 
-/// Between texts of a line.
-pub(super) const SEPARATOR: &str = "  ·  ";
+/// Between texts of a line: a line may end after the dot.
+const SEPARATOR: &str = "\u{a0}\u{a0}·  ";
+/// Longest unit, in letters, that stays with its number.
+const UNIT: usize = 3;
+
+/// Texts in a line that breaks neither between a number and its unit nor at an equals sign.
+pub(super) fn in_a_line(texts: &[String]) -> String {
+    let joined = texts.join(SEPARATOR).replace(" = ", "\u{a0}=\u{a0}");
+    let mut out = String::with_capacity(joined.len() + 16);
+    let mut words = joined.split(' ').peekable();
+    while let Some(word) = words.next() {
+        out.push_str(word);
+        let unit = |next: &&str| {
+            !next.is_empty() && next.trim_end_matches(SEPARATOR.trim_end()).chars().count() <= UNIT
+        };
+        if words.peek().is_some() {
+            let together = word.ends_with(|c: char| c.is_ascii_digit()) && words.peek().is_some_and(unit);
+            out.push(if together { '\u{a0}' } else { ' ' });
+        }
+    }
+    out
+}
 
 /// Draws the bar.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -53,7 +73,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         let mut line = LayoutJob::default();
         line.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
         let facts = format(fonts::regular(theme::size::BODY), tokens.text);
-        line.append(&reading.facts.join(SEPARATOR), 12.0, facts);
+        line.append(&in_a_line(&reading.facts), 12.0, facts);
         let broken: String = broken
             .iter()
             .map(|text| SEPARATOR.to_owned() + &fill("beyond a limit: {text}", &[("text", text)]))
@@ -61,7 +81,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         line.append(&broken, 0.0, format(fonts::regular(theme::size::BODY), tokens.danger));
         ui.label(line);
         if !reading.remarks.is_empty() {
-            let remarks = reading.remarks.join(SEPARATOR);
+            let remarks = in_a_line(&reading.remarks);
             ui.label(RichText::new(remarks).small().color(tokens.text_weak));
         }
     });
@@ -83,5 +103,18 @@ fn broken(context: &Context<'_>, shown: &Shown) -> Vec<String> {
     match (Safety::of(context.view, context.session), demand) {
         (Some(safety), Some(demand)) => safety.broken(&demand),
         _ => Vec::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_a_line;
+
+    #[test]
+    fn numbers_keep_their_units() {
+        let texts = ["14.2 V rms", "26.3 µW", "from β = 0.00163: |μ| = 1.148", "ends 0.813 % of the way"];
+        let line = in_a_line(&texts.map(str::to_owned));
+        let shown = "14.2~V rms~~·  26.3~µW~~·  from β~=~0.00163: |μ|~=~1.148~~·  ends 0.813~% of the way";
+        assert_eq!(line.replace('\u{a0}', "~"), shown);
     }
 }

@@ -124,6 +124,8 @@ pub enum Panel {
     Load,
     /// Map over two dimensions of the device.
     DesignMap,
+    /// The magnets' force over the range of the tip.
+    MagnetForce,
     /// Measured data.
     Measured,
     /// Live trace over time.

@@ -1,6 +1,7 @@
 //! The design bench: what a device harvests in SI units, with which load and ceramic, within which limits, and how far
 //! the model is to be trusted there; all of it pieces of [`Work`](super::work::Work).
 
+pub mod alignment;
 pub mod band;
 pub mod error;
 pub mod evolution;

@@ -89,6 +89,13 @@ pub struct LawError {
     pub whole: Option<f64>,
 }
 
+/// R(s), what `law` gives beyond its linear part where the tip of `system` is at `tip` (beam lengths from equilibrium), in
+/// units of E I / L^2; `None` where the magnets would have touched, which only the exact law knows of (Eq. 16).
+pub fn force_beyond_linear(system: &ReducedSystem, law: ForceLaw, tip: f64) -> Option<f64> {
+    let force = ReducedSystem { law, ..system.clone() }.rest_force();
+    force.contact().is_none_or(|contact| tip > contact).then(|| force.rest(tip))
+}
+
 /// How far `law` is off for `system` when its tip is at `tip` (beam lengths from equilibrium).
 pub fn law_error(system: &ReducedSystem, law: ForceLaw, tip: f64) -> LawError {
     /// Stiffness of the beam's tip, 3 E I / L^3.

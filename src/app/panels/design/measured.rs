@@ -3,6 +3,7 @@
 use egui::{RichText, Ui};
 use egui_plot::PlotPoint;
 
+use super::alignment;
 use super::harvest::Measure;
 use crate::app::bench::measured::{Domain, File};
 use crate::app::command::Command;
@@ -16,8 +17,6 @@ use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Card, Icon, Series, chips, legend};
 use crate::export::Pen;
 
-/// Points of the computed curve.
-const POINTS: usize = 3000;
 /// Most columns that are offered.
 const COLUMNS: usize = 8;
 
@@ -47,19 +46,7 @@ fn over_time(context: &Context<'_>, ui: &mut Ui, file: &File) {
         ui,
         &[(Series::Measured, tr("measured")), (Series::Numeric, tr("computed: the end of the run"))],
     );
-    let Some(shown) = context.shown() else { return };
-    let unit = context.view.scenario.units().time;
-    let first = file.drawn.first().map_or(0.0, |point| point.x);
-    let last = file.drawn.last().map_or(0.0, |point| point.x);
-    let end = shown.run.trajectory.end_time();
-    let span = ((last - first) / unit).min(end);
-    let voltage = shown.run.system.dimension() - 1;
-    let mut curve = Vec::with_capacity(POINTS);
-    if span > 0.0 {
-        shown.run.trajectory.sample(end - span, end, POINTS, |time, state| {
-            curve.push(PlotPoint::new(first + (time - end + span) * unit, state[voltage]));
-        });
-    }
+    let curve = alignment::computed(context, file);
     let (x, y) = (Axis::new(tr("time"), "t").unit("s"), Axis::new(tr("voltage"), "v").unit("V"));
     plot_style::plot(ui, ("measured", file.name.as_str(), 0), &x, &y).show(ui, |plot| {
         plot_style::series(plot, Series::Numeric, tr("computed"), &curve);
@@ -201,7 +188,7 @@ fn reading(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
 }
 
 /// Measured and computed in numbers.
-fn compared(context: &Context<'_>, ui: &mut Ui, file: &File) {
+fn compared(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
     let Some((rms, peak)) = file.measures else { return };
     let tokens = theme::tokens(ui);
     let line = |ui: &mut Ui, text: String| {
@@ -254,4 +241,5 @@ fn compared(context: &Context<'_>, ui: &mut Ui, file: &File) {
             line(ui, fill("measured over computed: {ratio}", &[("ratio", &significant(rms / v_rms, 3))]));
         }
     }
+    alignment::controls(context, ui, file);
 }

@@ -1,6 +1,8 @@
 //! The Design tab: what a device delivers in volts, watts and hertz, within which limits, and what would be better.
 
+mod alignment;
 mod bands;
+mod force;
 pub(super) mod harvest;
 mod limits;
 mod load;
@@ -46,6 +48,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 pub(in crate::app) fn plot_alone(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
     match panel {
         Panel::Load => load::show(context, ui),
+        Panel::MagnetForce => force::show(context, ui),
         _ => harvest::show(context, ui),
     }
 }

@@ -5,7 +5,7 @@ use egui::{RichText, Ui};
 use super::safety::{self, Safety};
 use crate::app::bench;
 use crate::app::panels::Context;
-use crate::app::panels::verdict::SEPARATOR;
+use crate::app::panels::verdict::in_a_line;
 use crate::app::text::{fill, motion_in_words, reworded, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{prefix, significant, with_unit};
@@ -193,9 +193,9 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
         }
     }
     ui.add_space(4.0);
-    ui.label(RichText::new(facts.join(SEPARATOR)).color(tokens.text));
+    ui.label(RichText::new(in_a_line(&facts)).color(tokens.text));
     if !remarks.is_empty() {
-        ui.label(RichText::new(remarks.join(SEPARATOR)).small().color(tokens.warning));
+        ui.label(RichText::new(in_a_line(&remarks)).small().color(tokens.warning));
     }
 }
 

@@ -48,3 +48,27 @@ fn the_summary_says_what_the_device_delivers() {
         desk.harness.find(Role::Label, name);
     }
 }
+
+#[test]
+fn a_record_of_the_run_itself_is_aligned_with_it() {
+    let mut desk = desk(1440.0, "measured");
+    desk.work(20);
+    let unit = desk.app.view.scenario.units().time;
+    let period = std::f64::consts::TAU / desk.app.view.scenario.parameters.omega;
+    let shown = desk.app.session.shown.as_ref().expect("a run");
+    let run = &shown.run;
+    let end = run.trajectory.end_time() - 1.3 * period;
+    let mut text = "time [s],voltage [V]\n".to_owned();
+    run.trajectory.sample(end - 20.0 * period, end, 4001, |time, state| {
+        text += &format!("{},{}\n", 7.0 + time * unit, state[run.system.dimension() - 1]);
+    });
+    desk.app.bench.measured.open("run.csv", text.into_bytes());
+    desk.work(20);
+    let align = desk.harness.find(Role::Button, "Align").bounds.center();
+    let Desk { app, harness } = &mut desk;
+    harness.click(align, |ui| app.ui(ui));
+    desk.work(3);
+    let shift = desk.app.bench.measured.file.as_ref().expect("a file").reading.shift;
+    assert!((shift - 1.3).abs() < 1e-3, "{shift}");
+    desk.harness.find(Role::Label, "what is left between them: ");
+}

@@ -2,10 +2,13 @@
 
 use egui::{Grid, RichText, Ui};
 
+use super::{LEAST_HEIGHT, force};
+
 use crate::app::panels::computing;
 use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
 use crate::app::theme;
+use crate::app::view::Panel;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips};
 use crate::dynamics::Motion;
@@ -17,23 +20,34 @@ use crate::theory::Resonance;
 
 /// The model that stands for the truth.
 const BEST: ModelChoice = ModelChoice { modes: 4, force: ForceLaw::Exact };
-const NAMES: [&str; 4] = [marked("quadratic"), marked("cubic"), marked("Taylor 5"), marked("exact")];
+pub(super) const NAMES: [&str; 4] =
+    [marked("quadratic"), marked("cubic"), marked("Taylor 5"), marked("exact")];
 /// Relative difference from the exact law with most modes that counts as a good one, and as a bad one.
 const GOOD: f64 = 0.05;
 const BAD: f64 = 0.25;
 /// Width from which the cards stand side by side.
 const TWO_COLUMNS: f32 = 900.0;
+/// Width below which the table's columns stand close together.
+const PHONE: f32 = 360.0;
 
 /// Draws the page.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    if ui.available_width() < TWO_COLUMNS {
+    let room = ui.available_size();
+    let height = room.y.max(LEAST_HEIGHT);
+    if context.view.enlarged == Some(Panel::MagnetForce) {
+        force::place(context, ui, height);
+    } else if room.x < TWO_COLUMNS {
         switch(context, ui);
         ui.add_space(grid::GAP);
         convergence(context, ui);
+        ui.add_space(grid::GAP);
+        force::place(context, ui, LEAST_HEIGHT);
     } else {
         ui.columns(2, |columns| {
             convergence(context, &mut columns[0]);
-            switch(context, &mut columns[1]);
+            columns[0].add_space(grid::GAP);
+            switch(context, &mut columns[0]);
+            force::place(context, &mut columns[1], height);
         });
     }
 }
@@ -189,8 +203,9 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let truth = value(entries.len().saturating_sub(1));
     let quantity = context.view.design.quantity;
     ui.spacing_mut().interact_size.y = 24.0;
+    let gap = if ui.available_width() < PHONE { 5.0 } else { 16.0 };
     egui::ScrollArea::horizontal().id_salt("trust").show(ui, |ui| {
-        Grid::new("trust").num_columns(LAWS.len() + 1).spacing([16.0, 3.0]).show(ui, |ui| {
+        Grid::new("trust").num_columns(LAWS.len() + 1).spacing([gap, 3.0]).show(ui, |ui| {
             ui.label(RichText::new(tr("modes")).small().color(tokens.text_weak));
             for name in NAMES {
                 ui.label(RichText::new(tr(name)).small().color(tokens.text_weak));
