@@ -78,8 +78,8 @@ fn round(value: f64) -> f64 {
     round_significant(value, 12)
 }
 
-/// Takes a changed device over.
-fn adopt(context: &mut Context<'_>, device: Device, scaling: ElectricalScaling) {
+/// Takes a changed device over, or says why it is none.
+pub(super) fn adopt(context: &mut Context<'_>, device: Device, scaling: ElectricalScaling) {
     let mut scenario = context.view.scenario.clone();
     let changed = scenario.set_device(device, scaling).and_then(|()| scenario.validate().map(|_| ()));
     let taken = changed.map(|()| Box::new(scenario)).map_err(|error| error.to_string());

@@ -3,7 +3,6 @@
 use egui::Ui;
 
 use super::grid::GAP;
-pub(super) use super::grid::grid;
 use super::{Context, plots, verdict};
 use crate::app::view::Panel;
 

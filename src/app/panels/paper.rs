@@ -3,7 +3,7 @@
 use egui::{RichText, Ui};
 
 use super::sweep::PARAMETERS;
-use super::{Context, explore, figure_boundaries, figure_panels, tables};
+use super::{Context, figure_boundaries, figure_panels, grid, tables};
 use crate::app::command::Command;
 use crate::app::figures::{self, FIGURES, Figure};
 use crate::app::text::{fill, tr};
@@ -28,7 +28,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Some(boundaries) => figure_boundaries::show(context, ui, &boundaries),
         None => {
             let panels = figure_panels::panels(figure);
-            explore::grid(ui, panels, &mut |ui, panel| figure_panels::show(context, ui, figure, *panel));
+            grid::grid(ui, panels, &mut |ui, panel| figure_panels::show(context, ui, figure, *panel));
         }
     }
 }

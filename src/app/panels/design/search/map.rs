@@ -4,8 +4,8 @@ use egui::{Color32, Id, Ui};
 use egui_plot::PlotBounds;
 
 use super::in_digits;
-use crate::app::command::Command;
-use crate::app::panels::{Context, computing, device};
+use crate::app::panels::device::{self, adopt};
+use crate::app::panels::{Context, computing};
 use crate::app::text::{fill, tr, within};
 use crate::app::view::Panel;
 use crate::app::view::design::Aim;
@@ -145,13 +145,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
             let value = (axes[i].value(moved[i]) / factors[i]).clamp(low, high);
             *sides[i].get_mut(&mut device) = round_significant(value, 5);
         }
-        adopt(context, device);
+        let scaling = context.view.scenario.scaling;
+        adopt(context, device, scaling);
     }
-}
-
-fn adopt(context: &mut Context<'_>, device: crate::model::Device) {
-    let mut scenario = context.view.scenario.clone();
-    let scaling = scenario.scaling;
-    let taken = scenario.set_device(device, scaling).map(|()| Box::new(scenario));
-    context.commands.push(Command::Adopt(taken.map_err(|error| error.to_string())));
 }
