@@ -123,6 +123,34 @@ fn the_texts_of_the_markup_are_those_of_the_page() {
     assert!(unknown.is_empty(), "not in the catalogue: {unknown:?}");
 }
 
+/// What the page says of itself when it cannot start, and so has no catalogue.
+#[test]
+fn the_early_texts_are_whole_and_those_of_the_catalogues() {
+    let script = read(&project("assets/shell/start.js"));
+    let said = ["fail(\"", "say(\""].into_iter().flat_map(|call| {
+        script.match_indices(call).filter_map(|(at, call)| literal(&script[at + call.len() - 1..]))
+    });
+    // These can be said only once the page runs.
+    let late = ["The graphics card or its driver gave the page up.", "Text typed into the picture"];
+    let said: Vec<String> = said.filter(|text| !late.contains(&text.as_str())).collect();
+    assert!(said.len() > 4, "{said:?}");
+    let early = script.split_once("const EARLY = {").expect("early texts").1;
+    for code in ["de", "zh"] {
+        let block = early.split_once(&format!("{code}: {{")).expect("a language").1;
+        let mut texts = block.split_once("\n  }").expect("its end").0.split('"').skip(1).step_by(2);
+        let mut pairs = BTreeMap::new();
+        while let (Some(english), Some(translation)) = (texts.next(), texts.next()) {
+            pairs.insert(english, translation);
+        }
+        let missing: Vec<_> = said.iter().filter(|text| !pairs.contains_key(text.as_str())).collect();
+        assert!(missing.is_empty(), "{code} lacks {missing:?}");
+        let catalogue = catalogue(code);
+        for (english, translation) in pairs {
+            assert_eq!(catalogue.get(english).map_or(translation, String::as_str), translation, "{code}");
+        }
+    }
+}
+
 fn lesson_texts(code: &str) -> String {
     let mut all = String::new();
     for id in LessonId::all() {

@@ -23,6 +23,9 @@ const EARLY = {
     "Harvester Lab cannot start": "Harvester Lab kann nicht starten",
     "This browser cannot show Harvester Lab": "Dieser Browser kann Harvester Lab nicht zeigen",
     "{name} is missing or switched off.": "{name} fehlt oder ist abgeschaltet.",
+    "Your last scenario is kept in this browser. Reload continues it. If that stops again, copy it and start over.":
+      "Ihr letztes Szenario ist in diesem Browser gespeichert. „Neu laden“ setzt es fort. Hält die Seite wieder an, kopieren Sie es und beginnen Sie neu.",
+    "Copied": "Kopiert",
   },
   zh: {
     "Loading": "载入中",
@@ -32,6 +35,9 @@ const EARLY = {
     "Harvester Lab cannot start": "Harvester Lab 无法启动",
     "This browser cannot show Harvester Lab": "此浏览器无法显示 Harvester Lab",
     "{name} is missing or switched off.": "{name} 缺失或已关闭。",
+    "Your last scenario is kept in this browser. Reload continues it. If that stops again, copy it and start over.":
+      "您上一次的参数保存在此浏览器中。重新载入可继续。若再次停止，请复制它并重新开始。",
+    "Copied": "已复制",
   },
 };
 // Translations by their English texts; the app brings its own.

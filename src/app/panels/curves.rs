@@ -9,15 +9,12 @@ use crate::app::text::{fill, reworded, tr};
 use crate::app::view::Panel;
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips, legend};
-use crate::app::{colours, questions, theme};
+use crate::app::widgets::{Series, chips_after, legend};
+use crate::app::{colours, questions};
 use crate::dynamics::Instability;
 use crate::jobs::study::Study as _;
 use crate::jobs::study::curves::PARAMETERS;
 use crate::model::Parameter;
-
-/// Least room for the vertical choice with its label.
-const PAIR_WIDTH: f32 = 190.0;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -40,16 +37,10 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let [mut x, mut y] = context.view.plane;
     let before = [x, y];
     let choices = PARAMETERS.map(|parameter| (parameter, sweep::title(parameter).1));
-    let weak = theme::tokens(ui).text_weak;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
-        ui.label(egui::RichText::new(tr("across")).small().color(weak));
-        chips(ui, tr("Horizontal parameter"), &mut x, &choices);
-        if ui.available_size_before_wrap().x < PAIR_WIDTH {
-            ui.end_row();
-        }
-        ui.label(egui::RichText::new(tr("up")).small().color(weak));
-        chips(ui, tr("Vertical parameter"), &mut y, &choices);
+        chips_after(ui, tr("across"), tr("Horizontal parameter"), &mut x, &choices);
+        chips_after(ui, tr("up"), tr("Vertical parameter"), &mut y, &choices);
     });
     if x == y {
         // The other axis takes what this one had.

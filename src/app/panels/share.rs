@@ -137,10 +137,23 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
 
 /// What of this view a frame is to show, and the button that copies it.
 fn choose_parts(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory, mut parts: u32, link: &str) {
-    ui.columns(2, |columns| {
+    // In one column where words would have to be broken.
+    let widest = PARTS.iter().map(|(_, _, name)| {
+        let galley = egui::WidgetText::from(tr(name)).into_galley(
+            ui,
+            Some(egui::TextWrapMode::Extend),
+            f32::INFINITY,
+            egui::TextStyle::Button,
+        );
+        galley.size().x
+    });
+    let mark = ui.spacing().icon_width + ui.spacing().icon_spacing;
+    let width = widest.fold(0.0, f32::max) + mark + ui.spacing().item_spacing.x;
+    let count = if 2.0 * width <= ui.available_width() { 2 } else { 1 };
+    ui.columns(count, |columns| {
         for (i, (_, _, name)) in PARTS.iter().enumerate() {
             let mut chosen = parts >> i & 1 == 1;
-            if columns[i * 2 / PARTS.len()].checkbox(&mut chosen, tr(name)).changed() {
+            if columns[i * count / PARTS.len()].checkbox(&mut chosen, tr(name)).changed() {
                 parts ^= 1 << i;
             }
         }

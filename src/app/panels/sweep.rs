@@ -1,14 +1,14 @@
 //! The Sweep tab: the motion along a range of one parameter, up and down, and the periodic motions that there are.
 
-use egui::{RichText, Ui};
+use egui::Ui;
 
 use super::frequency::FREQUENCIES;
 use super::{Context, grid, plots, verdict};
 use crate::app::command::Command;
+use crate::app::questions;
 use crate::app::text::tr;
 use crate::app::view::{Output, Panel, SweepView};
-use crate::app::widgets::{Card, ParameterSlider, chips};
-use crate::app::{questions, theme};
+use crate::app::widgets::{Card, ParameterSlider, chips_after};
 use crate::dynamics::sweep::Dwell;
 use crate::model::Parameter;
 
@@ -71,35 +71,20 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     let width = ui.available_width();
     let (wide, halved) = (width >= WIDE, (WIDE..WIDEST).contains(&width));
     Card::new("").hugging().show(ui, |ui| {
-        let mut rows = |ui: &mut Ui| {
-            choice(ui, tr("sweep"), |ui| {
-                if chips(ui, tr("Swept parameter"), &mut sweep.parameter, &PARAMETERS) {
-                    sweep.range = None;
-                }
-            });
-            choice(ui, tr("values"), |ui| {
-                chips(ui, tr("Number of values"), &mut sweep.count, &COUNTS);
-            });
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 8.0;
+            if chips_after(ui, tr("sweep"), tr("Swept parameter"), &mut sweep.parameter, &PARAMETERS) {
+                sweep.range = None;
+            }
+            chips_after(ui, tr("values"), tr("Number of values"), &mut sweep.count, &COUNTS);
             if halved {
                 ui.end_row();
             }
-            choice(ui, tr("periods dropped + kept"), |ui| {
-                chips(ui, tr("Periods"), &mut sweep.dwell, &HOLDS);
-            });
-            choice(ui, tr("curves of"), |ui| {
-                let outputs = [
-                    (Output::Voltage, tr("voltage")),
-                    (Output::Power, tr("power")),
-                    (Output::Tip, tr("tip")),
-                ];
-                chips(ui, tr("Response of"), &mut sweep.output, &outputs);
-            });
-        };
-        if wide {
-            ui.horizontal_wrapped(|ui| rows(ui));
-        } else {
-            rows(ui);
-        }
+            chips_after(ui, tr("periods dropped + kept"), tr("Periods"), &mut sweep.dwell, &HOLDS);
+            let outputs =
+                [(Output::Voltage, tr("voltage")), (Output::Power, tr("power")), (Output::Tip, tr("tip"))];
+            chips_after(ui, tr("curves of"), tr("Response of"), &mut sweep.output, &outputs);
+        });
         ui.add_space(4.0);
         let range = questions::sweep_range(context.view, context.session);
         if wide {
@@ -136,14 +121,4 @@ fn ends(columns: &mut [Ui], sweep: &mut SweepView, range: (f64, f64)) {
     if (low, high) != range {
         sweep.range = Some((low, high));
     }
-}
-
-/// A choice after what it is for.
-fn choice(ui: &mut Ui, name: &str, choices: impl FnOnce(&mut Ui)) {
-    let colour = theme::tokens(ui).text_weak;
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 8.0;
-        ui.label(RichText::new(name).small().color(colour));
-        choices(ui);
-    });
 }

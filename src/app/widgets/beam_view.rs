@@ -14,6 +14,8 @@ const MAGNIFICATIONS: [f64; 8] = [1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0];
 const MAGNET: f64 = 0.075;
 /// Share of the picture's height that motion should use at most.
 const USED_HEIGHT: f64 = 0.8;
+/// Height of the note in the corner, with what keeps it clear, points.
+const NOTE: f32 = 24.0;
 
 /// A moving picture of the beam. Lengths are in beam lengths; `z` points up.
 ///
@@ -133,7 +135,10 @@ impl<'a> BeamView<'a> {
         } else {
             tr("to scale").to_owned()
         };
-        let at = rect.left_bottom() + vec2(10.0, -7.0);
+        // Where the clamp reaches down to the note, the note stands beside it.
+        let aside =
+            if wall.bottom() > rect.bottom() - NOTE { wall.right() - rect.left() + 6.0 } else { 10.0 };
+        let at = rect.left_bottom() + vec2(aside, -7.0);
         painter.text(at, Align2::LEFT_BOTTOM, note, fonts::regular(theme::size::SMALL), tokens.text_weak);
     }
 

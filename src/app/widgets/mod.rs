@@ -30,5 +30,5 @@ pub use parameter_slider::{Mark, ParameterSlider, SliderResponse};
 pub use qr::{qr_code, qr_modules};
 pub use raster::{HATCH, draw_cells, draw_raster, on_hatching, raster};
 pub use swatch::{attractor_row, colour_bar, swatches};
-pub use tabs::{chips, tabs};
+pub use tabs::{chips, chips_after, tabs};
 pub use tile::{Tile, tiles};

@@ -40,13 +40,8 @@ pub fn tabs<T: PartialEq + Copy>(ui: &mut Ui, selected: &mut T, choices: &[(T, &
 pub fn chips<T: PartialEq + Copy>(ui: &mut Ui, name: &str, selected: &mut T, choices: &[(T, &str)]) -> bool {
     let before = *selected;
     let tokens = theme::tokens(ui);
-    let widths = choices.iter().map(|(choice, label)| {
-        layout(ui, label, *choice == *selected, theme::size::SMALL + 0.5).size().x + 20.0
-    });
-    let begun = ui.cursor().left() > ui.max_rect().left() + 1.0;
-    if begun && ui.layout().main_wrap() && widths.sum::<f32>() > ui.available_size_before_wrap().x {
-        ui.end_row();
-    }
+    let width = chips_width(ui, selected, choices);
+    begin_row(ui, width);
     let background = ui.painter().add(egui::Shape::Noop);
     let row = ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
@@ -74,6 +69,41 @@ pub fn chips<T: PartialEq + Copy>(ui: &mut Ui, name: &str, selected: &mut T, cho
     let shape = egui::epaint::RectShape::new(used, corners, tokens.field, tokens.edge(), inside);
     ui.painter().set(background, shape);
     *selected != before
+}
+
+/// The same after a small text, which stands in the row where the choices begin.
+pub fn chips_after<T: PartialEq + Copy>(
+    ui: &mut Ui,
+    text: &str,
+    name: &str,
+    selected: &mut T,
+    choices: &[(T, &str)],
+) -> bool {
+    let text = egui::RichText::new(text).small().color(theme::tokens(ui).text_weak);
+    let text = egui::WidgetText::from(text).into_galley(
+        ui,
+        Some(egui::TextWrapMode::Extend),
+        f32::INFINITY,
+        egui::TextStyle::Small,
+    );
+    let width = text.size().x + ui.spacing().item_spacing.x + chips_width(ui, selected, choices);
+    begin_row(ui, width);
+    ui.label(text);
+    chips(ui, name, selected, choices)
+}
+
+fn chips_width<T: PartialEq>(ui: &Ui, selected: &T, choices: &[(T, &str)]) -> f32 {
+    let galleys =
+        choices.iter().map(|(choice, label)| layout(ui, label, choice == selected, theme::size::SMALL + 0.5));
+    galleys.map(|galley| galley.size().x + 20.0).sum()
+}
+
+/// Ends a begun row that wraps where `width` has no room in it.
+fn begin_row(ui: &mut Ui, width: f32) {
+    let begun = ui.cursor().left() > ui.max_rect().left() + 1.0;
+    if begun && ui.layout().main_wrap() && width > ui.available_size_before_wrap().x {
+        ui.end_row();
+    }
 }
 
 fn layout(ui: &Ui, text: &str, active: bool, size: f32) -> std::sync::Arc<egui::Galley> {
@@ -128,5 +158,25 @@ mod tests {
         harness.click(stability, &mut draw);
         harness.click(exact, &mut draw);
         assert_eq!((tab, law), (1, 'e'));
+    }
+
+    #[test]
+    fn a_text_before_choices_goes_to_the_next_row_with_them() {
+        for (width, together) in [(500.0, true), (300.0, true), (120.0, false)] {
+            let mut harness = Harness::new(width, 300.0);
+            let mut kick = 1;
+            harness.settle(|ui| {
+                ui.horizontal_wrapped(|ui| {
+                    ui.add_space(0.6 * ui.available_width());
+                    let choices = [(1, "20 %"), (2, "50 %"), (3, "100 %")];
+                    chips_after(ui, "kick", "Strength", &mut kick, &choices);
+                });
+            });
+            let text = harness.find(egui::Role::Label, "kick").bounds;
+            let first = harness.find(egui::Role::RadioButton, "Strength: 20 %").bounds;
+            let beside = first.left() > text.right() && first.y_range().contains(text.center().y);
+            assert_eq!(beside, together, "{width}: {text:?}, {first:?}");
+            assert!(first.right() <= width && text.right() <= width, "{width}: {text:?}, {first:?}");
+        }
     }
 }

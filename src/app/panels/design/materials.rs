@@ -9,7 +9,7 @@ use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
-use crate::app::widgets::{Card, chips};
+use crate::app::widgets::{Card, chips_after};
 use crate::jobs::design::materials::{MaterialRow, with_ceramic};
 use crate::jobs::study::Study as _;
 use crate::model::Limits;
@@ -40,12 +40,10 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     let names: Vec<String> = (1..=modes).map(|mode| fill("mode {mode}", &[("mode", &mode)])).collect();
     let all: Vec<(usize, &str)> = (1..=modes).zip(names.iter().map(String::as_str)).collect();
     let resonances = [(Resonance::First, "2ω₁"), (Resonance::Sum, "ω₁+ω₂"), (Resonance::Second, "2ω₂")];
-    let weak = theme::tokens(ui).text_weak;
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(tr("quality factor given to")).small().color(weak));
-        let mut changed = chips(ui, tr("Quality factor of"), &mut mode, &all);
-        ui.label(RichText::new(tr("tongue near")).small().color(weak));
-        changed |= chips(ui, tr("Tongue near"), &mut resonance, &resonances);
+        let given = tr("quality factor given to");
+        let mut changed = chips_after(ui, given, tr("Quality factor of"), &mut mode, &all);
+        changed |= chips_after(ui, tr("tongue near"), tr("Tongue near"), &mut resonance, &resonances);
         if changed {
             context.redesign(|design| (design.mode, design.resonance) = (mode, resonance));
         }

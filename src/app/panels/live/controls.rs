@@ -9,7 +9,7 @@ use crate::app::panels::Context;
 use crate::app::text::{fill, reworded, tr};
 use crate::app::view::live::{LiveView, SPEEDS};
 use crate::app::widgets::number::short;
-use crate::app::widgets::{Card, ParameterSlider, chips};
+use crate::app::widgets::{Card, ParameterSlider, chips, chips_after};
 use crate::app::{fonts, theme};
 use crate::dynamics::Outcome;
 
@@ -90,8 +90,7 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
             .show(ui);
     });
     let weak = theme::tokens(ui).text_weak;
-    note(ui, tr("kick"), weak);
-    chips(ui, tr("Strength of a kick"), &mut live.kick, &KICKS);
+    chips_after(ui, tr("kick"), tr("Strength of a kick"), &mut live.kick, &KICKS);
     if let Some((system, _, _)) = context.live.now() {
         let velocity = kick(&live, system);
         let text = match si(context) {
