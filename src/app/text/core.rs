@@ -7,7 +7,7 @@ use super::{fill_with, is_english, marked, tr};
 use crate::dynamics::motion::Motion;
 
 /// The sentences, the more special before the more general. A value may be another sentence.
-const SENTENCES: [&str; 67] = [
+const SENTENCES: [&str; 98] = [
     // Motions.
     marked("a start on the stable forced motion leads to another motion: {motion}, {volts} V rms"),
     marked("a start at rest leads to another motion: {motion}, {volts} V rms"),
@@ -74,6 +74,39 @@ const SENTENCES: [&str; 67] = [
     marked("{field} = {value} is out of range: allowed are {from} to {to}"),
     marked("{field} is not a finite number: allowed are {from} to {to}"),
     marked("both sides of the chart are {field}: they must differ"),
+    // Why something could not be computed.
+    marked(
+        "omega = {omega} is the natural frequency of mode {mode}: the first-order theory has no steady state there",
+    ),
+    marked(
+        "omega = {omega} is an undamped eigenfrequency of beam and circuit: there is no linear steady state",
+    ),
+    marked("the resonance theories need at least two modes, the system has {found}"),
+    marked(
+        "only {found} of the coupled modes oscillate lightly damped (decay slower than they turn): the coupled-mode theory needs two",
+    ),
+    marked("the eigenvalues of the linear system were not found within {iterations} iterations"),
+    marked("the coefficients of the linear system are not finite numbers"),
+    marked("the motion escapes at time {time}"),
+    marked("the magnets touch at time {time}"),
+    marked("{steps} steps a period are too few to follow the motion"),
+    marked(
+        "no periodic motion found near the guess: after {iterations} iterations the state still misses itself by {residual} of the gap",
+    ),
+    marked("the periodic motion cannot be isolated: one of its multipliers is 1"),
+    marked("the multipliers did not converge"),
+    marked("without any damping there is no onset of a modulation"),
+    marked("the curve bends too sharply to be followed"),
+    marked("the forced motion ends below beta = {beta}"),
+    marked("the plane's range of {parameter} must grow, and its two parameters must differ"),
+    marked("initial must be {expected} finite numbers (q1..qN, dq1/dt..dqN/dt, v), got {got}"),
+    marked(
+        "the step became too small at time {time}: the motion cannot be resolved to tolerance {tolerance}",
+    ),
+    marked(
+        "the motion is too fast to follow: {steps} steps have reached time {time} only; start nearer to rest, reduce beta or use the exact force law",
+    ),
+    marked("the motion ends within the record of the spectrum"),
     // What is wrong with a file or a link.
     marked("the file is empty"),
     marked("no row with at least two numbers in the first {lines} lines; line 1 is \"{first}\""),
@@ -83,7 +116,18 @@ const SENTENCES: [&str; 67] = [
     marked("{field} = {value} is not available: {allowed}"),
     marked("not a number; {allowed}"),
     marked("allowed are whole numbers from {from} to {to}"),
+    marked("allowed are quadratic, taylor2 to taylor{degree} and exact"),
+    marked("allowed are {from} to {to} ohm, or open"),
+    marked("allowed are {from} to {to} periods a second"),
     marked("allowed are {from} to {to}"),
+    marked("allowed are true and false"),
+    marked("allowed are finite numbers other than 0"),
+    marked("allowed is {word}"),
+    marked("needs {count} numbers"),
+    marked("plane: two different ones of {names}"),
+    marked("numbers in initial"),
+    marked("an array of length {count}"),
+    marked("allowed are {one} or {other}"),
     marked("allowed are {words}"),
     marked("not valid JSON: {problem}"),
     marked("not a name this page knows"),
@@ -127,98 +171,4 @@ fn values_in<'a>(sentence: &'static str, text: &'a str) -> Option<Vec<(&'static 
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::app::text::{Language, install, reset};
-    use crate::dynamics::motion::Undecided;
-    use crate::dynamics::verdict::{Coexisting, OtherStart, Warning};
-    use crate::jobs::design::measured::MeasuredError;
-    use crate::model::ModelError;
-
-    #[test]
-    fn values_are_found_between_the_words() {
-        let values = values_in(
-            "line {line}, column {column}: \"{content}\" is no",
-            "line 4, column 2: \"a: b\" is no",
-        );
-        assert_eq!(values, Some(vec![("line", "4"), ("column", "2"), ("content", "a: b")]));
-        assert_eq!(values_in("period {periods}", "quasiperiodic"), None);
-        assert_eq!(values_in("chaotic", "chaotic, almost"), None);
-        assert_eq!(values_in("chaotic", "chaotic"), Some(vec![]));
-    }
-
-    /// Whatever of these the core can say is known here: the words of both must not drift apart.
-    #[test]
-    fn sentences_of_the_core_are_known() {
-        let whys = [
-            Undecided::TransientNotGone,
-            Undecided::NearUnstable,
-            Undecided::ExponentOpen,
-            Undecided::PointsScattered,
-            Undecided::Unresolved,
-            Undecided::EvidenceDisagrees,
-        ];
-        let mut said: Vec<String> =
-            whys.iter().map(|why| Motion::Undecided { why: *why }.to_string()).collect();
-        let escape = Motion::Escape { time: 2.5 };
-        let motions = [Motion::Periodic { periods: 2 }, Motion::Quasiperiodic, Motion::Chaotic, escape];
-        said.extend(motions.iter().map(ToString::to_string));
-        said.push(Motion::Contact { time: 2.5 }.to_string());
-        for start in [OtherStart::ForcedMotion, OtherStart::Rest] {
-            said.push(Coexisting { start, motion: motions[0], v_rms: 2.0, power: 1e-6 }.to_string());
-        }
-        for warning in [
-            Warning::TransientLeft { fraction: 0.01 },
-            Warning::ForceLaw { missing: 0.2 },
-            Warning::ForceLaw { missing: -0.2 },
-            Warning::PassesMagnet,
-            Warning::LargeDeflection { tip: 0.4 },
-            Warning::TruncatedBarrier,
-            Warning::ForcedMotionEnds { beta: 0.01 },
-            Warning::ForcedMotionUnknown,
-        ] {
-            said.push(warning.to_string());
-        }
-        let (field, minimum, maximum) = (|| "beta".to_owned(), 0.0, 0.2);
-        for error in [
-            ModelError::OutOfRange { field: field(), value: 7.0, minimum, maximum, unit: " mm" },
-            ModelError::NotFinite { field: field(), minimum, maximum, unit: "" },
-            ModelError::Count { field: "modes", value: 9, minimum: 1, maximum: 8 },
-            ModelError::SameSides { field: field() },
-            ModelError::PullIn { c0: -0.5, d: 0.1, h: 0.2, smallest: 0.3 },
-            ModelError::Buckled { c1: -4.0 },
-            ModelError::GapClosed { sag: 0.2, distance: 0.1 },
-        ] {
-            said.push(error.to_string());
-        }
-        let content = || "x".to_owned();
-        for error in [
-            MeasuredError::Empty,
-            MeasuredError::NoNumbers { lines: 40, first: content() },
-            MeasuredError::Choice { field: "x", value: 3.0, allowed: content() },
-            MeasuredError::Missing { line: 3, fields: 1, column: 2, content: content() },
-            MeasuredError::Number { line: 3, column: 2, content: content() },
-            MeasuredError::Text { line: 3, problem: content() },
-        ] {
-            said.push(error.to_string());
-        }
-        let catalogue: std::collections::BTreeMap<&str, String> =
-            SENTENCES.iter().map(|sentence| (*sentence, format!("» {sentence}"))).collect();
-        let catalogue = serde_json::to_string(&catalogue).expect("plain texts");
-        install(Language::German, &catalogue).expect("a catalogue");
-        let unknown: Vec<String> = said.into_iter().filter(|text| reworded(text) == *text).collect();
-        reset();
-        assert_eq!(unknown, Vec::<String>::new());
-    }
-
-    #[test]
-    fn english_stays_as_it_is_and_sentences_within_sentences_are_reworded() {
-        let english = "undecided: the evidence disagrees";
-        assert_eq!(reworded(english), english);
-        let catalogue = r#"{"undecided: {why}":"offen: {why}","the evidence disagrees":"die Befunde widersprechen sich"}"#;
-        install(Language::German, catalogue).expect("a catalogue");
-        let german = reworded(english);
-        reset();
-        assert_eq!(german, "offen: die Befunde widersprechen sich");
-    }
-}
+mod tests;

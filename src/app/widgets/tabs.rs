@@ -5,6 +5,9 @@ use egui::{CornerRadius, Rect, Response, Sense, Ui, WidgetInfo, vec2};
 use super::icon;
 use crate::app::{fonts, theme};
 
+/// Height of a small choice, in points.
+const CHIP_HEIGHT: f32 = 24.0;
+
 /// The tabs of the top bar, the selected one in a pill. Returns whether the choice changed.
 pub fn tabs<T: PartialEq + Copy>(ui: &mut Ui, selected: &mut T, choices: &[(T, &str)]) -> bool {
     let before = *selected;
@@ -48,7 +51,7 @@ pub fn chips<T: PartialEq + Copy>(ui: &mut Ui, name: &str, selected: &mut T, cho
         for (choice, label) in choices {
             let active = *choice == *selected;
             let galley = layout(ui, label, active, theme::size::SMALL + 0.5);
-            let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 18.0, 24.0), Sense::click());
+            let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 18.0, CHIP_HEIGHT), Sense::click());
             describe(ui, &response, egui::Role::RadioButton, active, &format!("{name}: {label}"));
             let fill = if active {
                 tokens.accent
@@ -79,16 +82,14 @@ pub fn chips_after<T: PartialEq + Copy>(
     selected: &mut T,
     choices: &[(T, &str)],
 ) -> bool {
-    let text = egui::RichText::new(text).small().color(theme::tokens(ui).text_weak);
-    let text = egui::WidgetText::from(text).into_galley(
-        ui,
-        Some(egui::TextWrapMode::Extend),
-        f32::INFINITY,
-        egui::TextStyle::Small,
-    );
-    let width = text.size().x + ui.spacing().item_spacing.x + chips_width(ui, selected, choices);
+    let galley = layout(ui, text, false, theme::size::SMALL);
+    let width = galley.size().x + ui.spacing().item_spacing.x + chips_width(ui, selected, choices);
     begin_row(ui, width);
-    ui.label(text);
+    // As high as the choices: in a row it begins, a lower text would stand above their middle.
+    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x, CHIP_HEIGHT), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(egui::WidgetType::Label, true, text));
+    let corner = egui::pos2(rect.left(), rect.center().y - galley.size().y / 2.0);
+    ui.painter().galley(corner, galley, theme::tokens(ui).text_weak);
     chips(ui, name, selected, choices)
 }
 
