@@ -51,7 +51,8 @@ pub fn chips<T: PartialEq + Copy>(ui: &mut Ui, name: &str, selected: &mut T, cho
         for (choice, label) in choices {
             let active = *choice == *selected;
             let galley = layout(ui, label, active, theme::size::SMALL + 0.5);
-            let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 18.0, CHIP_HEIGHT), Sense::click());
+            let (rect, response) =
+                ui.allocate_exact_size(vec2(galley.size().x + 18.0, CHIP_HEIGHT), Sense::click());
             describe(ui, &response, egui::Role::RadioButton, active, &format!("{name}: {label}"));
             let fill = if active {
                 tokens.accent
@@ -87,7 +88,7 @@ pub fn chips_after<T: PartialEq + Copy>(
     begin_row(ui, width);
     // As high as the choices: in a row it begins, a lower text would stand above their middle.
     let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x, CHIP_HEIGHT), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(egui::WidgetType::Label, true, text));
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, text));
     let corner = egui::pos2(rect.left(), rect.center().y - galley.size().y / 2.0);
     ui.painter().galley(corner, galley, theme::tokens(ui).text_weak);
     chips(ui, name, selected, choices)
