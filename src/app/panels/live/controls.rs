@@ -20,6 +20,8 @@ const AUDIBLE: f64 = 20.0;
 const SOUNDS_WELL: f64 = 110.0;
 /// Width of the speed's slider.
 const SPEED_WIDTH: f32 = 380.0;
+/// Room between the groups of buttons: a line would be left over where a row ends.
+const GROUP_GAP: f32 = 12.0;
 
 /// Draws the card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -52,17 +54,17 @@ fn buttons(context: &mut Context<'_>, ui: &mut Ui) {
     }
     button(context, ui, tr("Step a period"), tr("Key: full stop"), LiveAction::StepPeriod);
     button(context, ui, tr("Step a frame"), tr("Key: comma"), LiveAction::StepFrame);
-    ui.separator();
+    ui.add_space(GROUP_GAP);
     button(context, ui, tr("Kick up"), tr("Away from the magnet. Key: K"), LiveAction::Kick(1.0));
     button(context, ui, tr("Kick down"), tr("Towards the magnet. Key: J"), LiveAction::Kick(-1.0));
-    ui.separator();
+    ui.add_space(GROUP_GAP);
     button(context, ui, tr("From rest"), tr("Key: R"), LiveAction::FromRest);
     if settled(context.view, context.session).is_some() {
         let hint = tr("Start where the run of the other tabs ends");
         button(context, ui, tr("Settled"), hint, LiveAction::FromSettled);
     }
     button(context, ui, tr("Clear trail"), tr("Key: C"), LiveAction::Clear);
-    ui.separator();
+    ui.add_space(GROUP_GAP);
     let mut sounds = context.live.sounds();
     if ui.checkbox(&mut sounds, tr("Sound")).on_hover_text(tr("The voltage, to be heard. Key: S")).changed() {
         context.commands.push(Command::Live(LiveAction::Sound));
