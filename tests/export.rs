@@ -74,6 +74,20 @@ fn runs(path: &str) -> Vec<Vec<[f64; 2]>> {
 }
 
 #[test]
+fn names_of_points_end_within_the_plot() {
+    let special = |name: &str, x: f64| Layer::Special { name: name.to_owned(), place: [x, 0.0] };
+    let layers = vec![special("generalized period doubling", 0.5), special("fold", 9.9)];
+    let (text, _) = svg::drawing(&[Figure { layers, ..figure() }], &[]);
+    let document = roxmltree::Document::parse(&text).expect("well-formed");
+    let anchor = |name: &str| {
+        let node = document.descendants().find(|node| node.is_element() && node.text() == Some(name));
+        node.and_then(|node| node.attribute("text-anchor"))
+    };
+    assert_eq!(anchor("generalized period doubling"), Some("start"));
+    assert_eq!(anchor("fold"), Some("end"));
+}
+
+#[test]
 fn points_are_where_the_axes_say_and_gaps_break_lines() {
     let (text, [width, height]) = svg::drawing(&[figure()], &["a caption & more".to_owned()]);
     let document = roxmltree::Document::parse(&text).expect("well-formed");

@@ -7,16 +7,23 @@ pub(super) const GAP: f32 = 10.0;
 /// Least height of a plot's card, and where it stands alone in its row: its choices then take several rows.
 pub(super) const LEAST_HEIGHT: f32 = 270.0;
 pub(super) const LEAST_HEIGHT_ALONE: f32 = 350.0;
+/// Height a card has, more or less, where there are more rows than fit the page.
+const USUAL_HEIGHT: f32 = 330.0;
+/// What is seen of the row that begins below the page: its titles, so that one knows of it.
+const PEEK: f32 = 36.0;
 /// Width from which two cards stand side by side.
 pub(super) const TWO_COLUMNS: f32 = 640.0;
 
-/// Lays out cards of equal size in one or two columns that fill the page, or more when it is low.
+/// Lays out cards of equal size in one or two columns: whole rows fill the page, the others are further down.
 pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], draw: &mut dyn FnMut(&mut Ui, &T)) {
     let columns = if ui.available_width() >= TWO_COLUMNS { 2 } else { 1 };
     let rows = cards.len().div_ceil(columns);
     let width = ((ui.available_width() - GAP * (columns - 1) as f32) / columns as f32).floor();
     let least = if columns == 1 { LEAST_HEIGHT_ALONE } else { LEAST_HEIGHT };
-    let height = ((ui.available_height() - GAP * (rows - 1) as f32) / rows as f32).floor().max(least);
+    let room = ui.available_height();
+    let in_sight = (room / USUAL_HEIGHT).round().clamp(1.0, rows as f32);
+    let hidden = if in_sight < rows as f32 { GAP + PEEK } else { 0.0 };
+    let height = ((room - hidden - GAP * (in_sight - 1.0)) / in_sight).floor().max(least);
     for (index, row) in cards.chunks(columns).enumerate() {
         if index > 0 {
             ui.add_space(GAP - ui.spacing().item_spacing.y);

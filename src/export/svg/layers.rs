@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::words::{filled, hex, stroke, text};
+use super::words::{filled, hex, stroke, text, width};
 use super::{Frame, INK, TEXT};
 use crate::export::figure::{Anchor, Layer, finite_runs};
 use crate::export::markup::short;
@@ -38,7 +38,10 @@ pub(super) fn layer(out: &mut String, frame: &Frame, layer: &Layer) {
         }
         Layer::Special { name, place } => {
             let (x, y) = (frame.x(place[0]), frame.y(place[1]));
-            text(out, [x + 8.0, y - 5.0], TEXT, INK, "start", HALO, name);
+            let ends = x + 8.0 + width(name, TEXT);
+            let (side, anchor) =
+                if ends <= frame.left + frame.width { (8.0, "start") } else { (-8.0, "end") };
+            text(out, [x + side, y - 5.0], TEXT, INK, anchor, HALO, name);
             writeln!(out, "<path d=\"M{} {}l5 5-5 5-5-5z\" fill=\"{}\"/>", short(x), short(y - 5.0), hex(INK))
         }
         Layer::Here { place, .. } => writeln!(

@@ -220,9 +220,24 @@ pub fn special_point(plot: &mut PlotUi<'_>, name: &str, place: PlotPoint) {
     recorder::draw(plot, &mut || Layer::Special { name: name.to_owned(), place: [place.x, place.y] });
     let mark = Points::new(name, vec![[place.x, place.y]]).radius(5.0).color(tokens.text_strong);
     plot.points(mark.shape(egui_plot::MarkerShape::Diamond));
-    let rich = egui::RichText::new(format!("  {name}")).font(fonts::regular(theme::size::SMALL + 0.5));
-    let text = Text::new("", place, rich.color(tokens.text_strong)).color(tokens.text_strong);
-    plot.text(text.anchor(egui::Align2::LEFT_BOTTOM).allow_hover(false));
+    let font = fonts::regular(theme::size::SMALL + 0.5);
+    let spaced = format!("  {name}  ");
+    let layout = |fonts: &mut egui::epaint::text::FontsView<'_>| {
+        fonts.layout_no_wrap(spaced.clone(), font.clone(), tokens.text_strong).size()
+    };
+    let size = plot.ctx().fonts_mut(layout);
+    let anchor = anchor_with_room(plot.screen_from_plot(place), size, *plot.transform().frame());
+    let rich = egui::RichText::new(spaced).font(font).color(tokens.text_strong);
+    let text = Text::new("", place, rich).color(tokens.text_strong);
+    plot.text(text.anchor(anchor).allow_hover(false));
+}
+
+/// Which corner of a text is at `place`, so that it ends within the frame: to the right and up where it can be.
+fn anchor_with_room(place: egui::Pos2, size: egui::Vec2, frame: egui::Rect) -> egui::Align2 {
+    let right = place.x + size.x <= frame.right() || place.x - size.x < frame.left();
+    let up = place.y - size.y >= frame.top();
+    let across = if right { egui::Align::Min } else { egui::Align::Max };
+    egui::Align2([across, if up { egui::Align::Max } else { egui::Align::Min }])
 }
 
 /// The stretches of a curve without points that are not finite.
@@ -234,6 +249,18 @@ pub fn finite_runs(curve: &[PlotPoint]) -> Vec<&[PlotPoint]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_name_ends_within_the_frame() {
+        let frame = egui::Rect::from_min_size(egui::pos2(0.0, 0.0), egui::vec2(200.0, 100.0));
+        let size = egui::vec2(80.0, 12.0);
+        let at = |x: f32, y: f32| anchor_with_room(egui::pos2(x, y), size, frame);
+        assert_eq!(at(50.0, 50.0), egui::Align2::LEFT_BOTTOM);
+        assert_eq!(at(150.0, 50.0), egui::Align2::RIGHT_BOTTOM);
+        assert_eq!(at(150.0, 5.0), egui::Align2::RIGHT_TOP);
+        let wide = anchor_with_room(egui::pos2(100.0, 50.0), egui::vec2(150.0, 12.0), frame);
+        assert_eq!(wide, egui::Align2::LEFT_BOTTOM, "no room on either side: the beginning is legible");
+    }
 
     #[test]
     fn runs_are_split_at_gaps() {
