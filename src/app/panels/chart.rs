@@ -75,6 +75,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             });
         }
     }
+    stability_map::boundaries_legend(ui);
 }
 
 fn multiplier_legend(ui: &mut Ui, tokens: &Tokens) {

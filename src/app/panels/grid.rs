@@ -6,7 +6,7 @@ use egui::{Ui, vec2};
 pub(super) const GAP: f32 = 10.0;
 /// Least height of a plot's card, and where it stands alone in its row: its choices then take several rows.
 pub(super) const LEAST_HEIGHT: f32 = 270.0;
-pub(super) const LEAST_HEIGHT_ALONE: f32 = 350.0;
+pub(super) const LEAST_HEIGHT_ALONE: f32 = 380.0;
 /// Height a card has, more or less, where there are more rows than fit the page.
 const USUAL_HEIGHT: f32 = 330.0;
 /// What is seen of the row that begins below the page: its titles, so that one knows of it.

@@ -44,16 +44,21 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         if ui.available_size_before_wrap().x < LEGEND {
             ui.end_row();
         }
-        legend::legend(
-            ui,
-            &[
-                (Series::Published, tr("published")),
-                (Series::Coupled, tr("coupled modes")),
-                (Series::Exact, tr("exact (Floquet)")),
-            ],
-        );
+        boundaries_legend(ui);
     });
     ui.add_space(4.0);
+}
+
+/// The three theories' lines.
+pub(super) fn boundaries_legend(ui: &mut Ui) {
+    legend::legend(
+        ui,
+        &[
+            (Series::Published, tr("published")),
+            (Series::Coupled, tr("coupled modes")),
+            (Series::Exact, tr("exact (Floquet)")),
+        ],
+    );
 }
 
 /// The choice of the resonance to look at.
