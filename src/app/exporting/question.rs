@@ -1,8 +1,9 @@
 //! What is in view as a request of the native command.
 
+use crate::app::map::Boundaries;
 use crate::app::questions;
 use crate::app::session::Session;
-use crate::app::view::{Tab, View};
+use crate::app::view::{Layer, Tab, View};
 use crate::app::widgets::number::exact;
 
 /// What the tab in view asks the solver, as a request of the native command.
@@ -16,8 +17,15 @@ pub(in crate::app) fn request(view: &View, session: &Session) -> String {
         String::new()
     };
     let lasting = format!("{initial},\n \"t_end\":{}", part("t_end"));
-    match view.tab {
-        Tab::Sweep => {
+    match (view.tab, &session.boundaries) {
+        (Tab::Stability, Some(boundaries)) => {
+            let (quantity, omega, beta) = charted(view, boundaries);
+            format!(
+                "{{\"task\":\"chart\",\n \"quantity\":\"{quantity}\",\n \"omega\":{omega},\n \"beta\":{beta},\n \
+                 {subject}{lasting}}}"
+            )
+        }
+        (Tab::Sweep, _) => {
             let (from, to) = questions::sweep_range(view, session);
             let sweep = &view.sweep;
             format!(
@@ -31,7 +39,7 @@ pub(in crate::app) fn request(view: &View, session: &Session) -> String {
                 sweep.dwell.kept
             )
         }
-        Tab::Design => {
+        (Tab::Design, _) => {
             let scaling = part("scaling");
             let scaling =
                 if scaling == "null" { String::new() } else { format!(",\n \"scaling\":{scaling}") };
@@ -43,4 +51,26 @@ pub(in crate::app) fn request(view: &View, session: &Session) -> String {
         }
         _ => format!("{{\"task\":\"verdict\",\n {subject}{lasting}}}"),
     }
+}
+
+/// What the stability chart shows, and over which frequencies and amplitudes.
+fn charted(view: &View, boundaries: &Boundaries) -> (&'static str, String, String) {
+    let span = |(from, to): (f64, f64), count: usize| {
+        format!("{{\"from\":{},\"to\":{},\"count\":{count}}}", exact(from), exact(to))
+    };
+    let quantity = match view.layer {
+        Layer::Multiplier => {
+            let question = questions::chart(view, boundaries);
+            return (
+                "multiplier",
+                span(question.omega, question.size.0),
+                span(question.beta, question.size.1),
+            );
+        }
+        Layer::Motion => "motion",
+        Layer::Voltage => "v_rms",
+        Layer::Power => "power",
+    };
+    let question = questions::motions(view, boundaries);
+    (quantity, span(question.x.1, question.size.0), span(question.y.1, question.size.1))
 }

@@ -1,8 +1,10 @@
 use super::*;
 use crate::app::command::Command;
 use crate::app::history::Hand;
+use crate::app::map::{Boundaries, Structure};
 use crate::app::rehearsal;
 use crate::app::session::Session;
+use crate::app::view;
 use crate::jobs::solve;
 
 /// The page of a link, everything computed, and drawn once.
@@ -133,5 +135,25 @@ fn the_solver_answers_what_the_programs_ask() {
         let request = request(&view, &Session::default());
         let answer = solve(&request);
         assert!(answer.is_ok(), "{request}: {answer:?}");
+    }
+}
+
+#[test]
+fn the_chart_in_view_is_asked_for() {
+    let view = crate::app::link::read("v=1&tab=stability&map=first&alpha=1e-4", &View::default()).0;
+    let system = view.scenario.model.system(view.scenario.parameters).expect("a system");
+    let structure = Structure::of(&view.scenario);
+    let mut session = Session::default();
+    session.boundaries = Some(Boundaries::new(structure, &system));
+    for (layer, quantity) in [(view::Layer::Multiplier, "multiplier"), (view::Layer::Voltage, "v_rms")] {
+        let request = request(&View { layer, ..view.clone() }, &session);
+        let asked: serde_json::Value = serde_json::from_str(&request).expect("JSON");
+        assert_eq!((asked["task"].as_str(), asked["quantity"].as_str()), (Some("chart"), Some(quantity)));
+        let omega = asked["omega"]["from"].as_f64().zip(asked["omega"]["to"].as_f64());
+        assert!(omega.is_some_and(|(from, to)| from < 8.0969 && 8.0969 < to), "{request}");
+        // Fewer places, of which there are thousands.
+        let fewer = request.replace("\"count\":256", "\"count\":3").replace("\"count\":80", "\"count\":2");
+        let fewer = fewer.replace("\"count\":60", "\"count\":2");
+        assert!(solve(&fewer).is_ok(), "{fewer}: {:?}", solve(&fewer));
     }
 }
