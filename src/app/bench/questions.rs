@@ -20,7 +20,7 @@ use crate::model::{Dimension, Parameter};
 use crate::scenario::{ModelChoice, Scenario};
 
 /// Loads whose best frequency is looked for: every so many of those in view.
-const EVERY_LOAD: usize = 4;
+const EVERY_LOAD: usize = 2;
 /// Power (W) that counts in the band of a candidate unless one is chosen.
 pub(in crate::app) const LEAST: f64 = 1e-6;
 /// Frequencies of the band of a candidate.

@@ -22,7 +22,8 @@ pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], draw: &mut dyn FnMut(&mut Ui, &T
     let least = if columns == 1 { LEAST_HEIGHT_ALONE } else { LEAST_HEIGHT };
     let room = ui.available_height();
     let in_sight = (room / USUAL_HEIGHT).round().clamp(1.0, rows as f32);
-    let hidden = if in_sight < rows as f32 { GAP + PEEK } else { 0.0 };
+    let (hidden, least) =
+        if in_sight < rows as f32 { (GAP + PEEK, least.max(USUAL_HEIGHT)) } else { (0.0, least) };
     let height = ((room - hidden - GAP * (in_sight - 1.0)) / in_sight).floor().max(least);
     for (index, row) in cards.chunks(columns).enumerate() {
         if index > 0 {
