@@ -1,5 +1,6 @@
 //! The Live tab's run: time goes on with the numbers in view while the page shows it.
 
+mod action;
 mod run;
 mod sound;
 mod trail;
@@ -18,6 +19,7 @@ use crate::scenario::{ModelChoice, Scenario};
 use run::LiveRun;
 use sound::Sound;
 
+pub(super) use action::{End, LiveAction};
 #[cfg(target_arch = "wasm32")]
 pub(super) use sound::RATE;
 pub(super) use trail::{Sample, Trail};
@@ -36,36 +38,6 @@ const AVERAGED: f64 = 0.5;
 const KEPT: f64 = 0.9;
 /// Excitation periods in the phase portrait.
 pub(super) const PORTRAIT: f64 = 16.0;
-
-/// What the user wants of the run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum LiveAction {
-    /// Run, or pause.
-    Toggle,
-    /// Pause, and go on for one excitation period.
-    StepPeriod,
-    /// Pause, and go on for as much as a frame at the present speed.
-    StepFrame,
-    /// Kick the tip up (1) or down (-1).
-    Kick(f64),
-    /// Start from rest, at phase 0.
-    FromRest,
-    /// Start where the run of the other tabs has settled.
-    FromSettled,
-    /// Forget curves and points.
-    Clear,
-    /// Let the voltage be heard, or not.
-    Sound,
-}
-
-/// Why the run stands still.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum End {
-    /// Escape or contact.
-    Outcome(Outcome),
-    /// It cannot be computed.
-    Failed(String),
-}
 
 /// The run with all that is shown of it.
 #[derive(Default)]

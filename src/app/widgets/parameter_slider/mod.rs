@@ -3,27 +3,23 @@
 mod field;
 mod mapping;
 mod marks;
+mod rows;
 #[cfg(test)]
 mod tests;
 mod track;
 
 use std::ops::RangeInclusive;
 
-use egui::{Align2, Rect, Response, Sense, Ui, pos2, vec2};
+use egui::{Align2, Response, Sense, Ui, pos2, vec2};
 
 use self::mapping::Mapping;
+use self::rows::Rows;
 use super::icon::{self, Icon};
 use crate::app::text::{fill, tr};
 use crate::app::{fonts, theme};
 
 pub use marks::Mark;
 pub use track::is_track;
-
-/// Height of the row with the name, of the track's grab area, and widths of the value field, points.
-const NAME_ROW: f32 = 26.0;
-const TRACK_ROW: f32 = 24.0;
-const FIELD: f32 = 84.0;
-const COMPACT_FIELD: f32 = 78.0;
 
 /// What one frame of a slider did.
 #[derive(Debug, Clone)]
@@ -241,64 +237,6 @@ impl<'a> ParameterSlider<'a> {
         });
         facts.push(field::range_text(&self.range, ""));
         ui.label(egui::RichText::new(facts.join("  ·  ")).small().color(tokens.text_weak));
-    }
-}
-
-/// Where the parts of the control go.
-struct Rows {
-    all: Rect,
-    name: Rect,
-    /// Right edge of the symbol.
-    symbol: f32,
-    reset: Rect,
-    field: Rect,
-    track: Rect,
-    secondary: Option<egui::Pos2>,
-}
-
-impl Rows {
-    /// Takes the room the control needs and divides it.
-    fn arrange(ui: &mut Ui, slider: &ParameterSlider<'_>, mapping: &Mapping, width: f32) -> Self {
-        let font = fonts::regular(theme::size::BODY);
-        let unit = ui.painter().layout_no_wrap(slider.unit.to_owned(), font, egui::Color32::PLACEHOLDER);
-        let field = match (slider.compact, slider.unit.is_empty()) {
-            (true, true) => COMPACT_FIELD,
-            (true, false) => COMPACT_FIELD - 4.0 + unit.size().x,
-            (false, true) => FIELD,
-            (false, false) => FIELD + 8.0 + unit.size().x,
-        };
-        let width = width.max(170.0);
-        if slider.compact {
-            let (all, _) = ui.allocate_exact_size(vec2(width, NAME_ROW), Sense::hover());
-            let split = all.left() + 0.38 * width;
-            let field = Rect::from_min_max(pos2(all.right() - field, all.top()), all.max);
-            let reset = Rect::from_center_size(pos2(field.left() - 10.0, all.center().y), vec2(18.0, 22.0));
-            let track =
-                Rect::from_min_max(pos2(split + 4.0, all.top()), pos2(reset.left() - 1.0, all.bottom()));
-            let name = Rect::from_min_max(all.min, pos2(split, all.bottom()));
-            return Self { all, name, symbol: split, reset, field, track, secondary: None };
-        }
-        let top_left = ui.cursor().min;
-        let row = Rect::from_min_size(top_left, vec2(width, NAME_ROW));
-        let track = Rect::from_min_size(row.left_bottom() + vec2(0.0, 1.0), vec2(width, TRACK_ROW));
-        let rail = track::rail(track);
-        let marks = marks::height(ui.painter(), mapping, slider.marks, rail, row);
-        let below = if slider.marks.is_empty() { track.bottom() } else { rail.bottom() + marks + 3.0 };
-        let secondary = if slider.secondary.is_empty() { 0.0 } else { 16.0 };
-        let height = below + secondary - top_left.y;
-        let (all, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-        let field = Rect::from_min_max(pos2(row.right() - field, row.top()), row.max);
-        let reset = Rect::from_center_size(pos2(field.left() - 16.0, row.center().y), vec2(24.0, 24.0));
-        let name = Rect::from_min_max(row.min, pos2(reset.left() - 4.0, row.bottom()));
-        Self {
-            all,
-            name,
-            symbol: reset.left() - 4.0,
-            reset,
-            field,
-            track,
-            secondary: Some(pos2(row.left(), below)),
-        }
     }
 }
 

@@ -1,0 +1,157 @@
+//! The search for designs, and the maps that it is looked over in.
+
+use harvester_lab::jobs::design::find::{FindQuestion, Objective, Variable, evaluate};
+use harvester_lab::jobs::design::{Plant, operating};
+use harvester_lab::jobs::motions::{Coordinate, at_place};
+use harvester_lab::jobs::study::find::FindStudy;
+use harvester_lab::jobs::study::map::DesignMap;
+use harvester_lab::jobs::study::motion_chart::{MotionChart, MotionQuestion};
+use harvester_lab::jobs::study::{Study, complete};
+use harvester_lab::model::{Dimension, ForceLaw, Limits, Parameter};
+use harvester_lab::scenario::{ModelChoice, Scenario};
+
+use super::{TestResult, figure_9};
+
+fn question(objective: Objective, limits: Limits) -> FindQuestion {
+    let model = ModelChoice { force: ForceLaw::Exact, ..Default::default() };
+    let scenario = Scenario { model, t_end: 300.0, ..figure_9() };
+    let dimension = |dimension, range| Variable {
+        coordinate: Coordinate::Dimension(dimension),
+        range,
+        logarithmic: true,
+    };
+    let variables =
+        vec![dimension(Dimension::Frequency, (2.5, 3.2)), dimension(Dimension::Resistance, (1e5, 1e9))];
+    FindQuestion { scenario, variables, objective, limits }
+}
+
+#[test]
+fn a_search_finds_more_power_within_its_limits_and_the_same_again() -> TestResult {
+    let wide = question(Objective::Power, Limits::default());
+    let tight = question(Objective::Power, Limits { voltage: Some((8.0, 9.0)), ..Default::default() });
+    let mut powers = Vec::new();
+    for question in [wide, tight] {
+        let run = || -> Result<FindStudy, Box<dyn std::error::Error>> {
+            let mut study = FindStudy::new(question.clone(), 8, 7)?;
+            complete(&mut study);
+            Ok(study)
+        };
+        let study = run()?;
+        assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
+        let found = study.best().ok_or("a candidate")?;
+        println!("{found:?} of {}", study.visited().len());
+        assert_eq!(found.evaluation.violation, 0.0);
+        assert_eq!((study.history().len(), study.visited().len()), (8, 8 * 16));
+        let ranks = study.history().iter().map(|best| best.evaluation.rank(&question.objective));
+        assert!(ranks.collect::<Vec<_>>().is_sorted());
+        assert_eq!(run()?.best(), study.best());
+        // What it says of the candidate is what the bench says of its scenario.
+        let scenario = study.scenario(found)?;
+        let harvest = operating(&scenario)?.reached.harvest.ok_or("it lasts")?;
+        let power = found.evaluation.value.ok_or("it lasts")?;
+        assert!((harvest.power / power - 1.0).abs() < 1e-6, "{harvest:?} {power}");
+        let (system, _) = scenario.validate()?;
+        assert!(question.limits.allow(&harvest.demand, Plant::gap(&system)), "{harvest:?}");
+        powers.push(power);
+    }
+    let own = operating(&question(Objective::Power, Limits::default()).scenario)?.reached.harvest;
+    let own = own.ok_or("it lasts")?.power;
+    println!("own {own}, found {powers:?}");
+    assert!(powers[0] > own && powers[0] > powers[1], "{powers:?} {own}");
+    Ok(())
+}
+
+#[test]
+fn a_stopped_search_keeps_the_best_so_far_and_asks_for_nothing_more() -> TestResult {
+    let mut study = FindStudy::new(question(Objective::Power, Limits::default()), 500, 7)?;
+    while study.history().len() < 2 {
+        let (ticket, work) = study.next().ok_or("a candidate")?;
+        study.take(ticket, work.carry_out());
+    }
+    let (late, work) = study.next().ok_or("a candidate")?;
+    let (best, visited) = (study.best().cloned(), study.visited().len());
+    study.stop();
+    study.take(late, work.carry_out());
+    assert!(study.finished() && study.next().is_none() && study.failure().is_none());
+    assert!(best.is_some() && study.best() == best.as_ref() && study.visited().len() == visited);
+    Ok(())
+}
+
+#[test]
+fn candidates_without_a_device_are_answers_and_bad_questions_errors() -> TestResult {
+    let good = question(Objective::Voltage, Limits::default());
+    // A beam so soft that it sags to the fixed magnet.
+    let mut soft = good.clone();
+    soft.variables[0].coordinate = Coordinate::Dimension(Dimension::YoungsModulus);
+    let found = evaluate(&soft, &[1e9, 1e7])?;
+    assert!(found.value.is_none() && found.violation > 0.0);
+    let mut same = good.clone();
+    same.variables[1] = same.variables[0];
+    assert!(FindStudy::new(same, 5, 1).is_err());
+    let none = FindQuestion { variables: Vec::new(), ..good.clone() };
+    assert!(FindStudy::new(none, 5, 1).is_err() && FindStudy::new(good, 0, 1).is_err());
+    Ok(())
+}
+
+#[test]
+fn a_chart_in_si_units_is_the_chart_of_the_numbers() -> TestResult {
+    let scenario = figure_9();
+    let device = scenario.device()?;
+    let axis = |dimension, range| (Coordinate::Dimension(dimension), range);
+    let question = MotionQuestion {
+        scenario: scenario.clone(),
+        x: axis(Dimension::Frequency, (2.7, 2.9)),
+        y: axis(Dimension::MagnetDistance, (0.2, 0.4)),
+        size: (3, 3),
+        t_end: 200.0,
+    };
+    question.validate()?;
+    let mut chart = MotionChart::new(question);
+    complete(&mut chart);
+    assert!(chart.finished() && chart.failure().is_none());
+    // The lowest row closes the gap: the beam sags by 0.27 m.
+    assert_eq!(chart.cell(0, 0), Some(None));
+    let coordinates = [Dimension::Frequency, Dimension::MagnetDistance].map(Coordinate::Dimension);
+    let place = at_place(&scenario, &coordinates, &[2.8, 0.4])?;
+    assert!((place.parameters.omega / (8.0969 * 2.8 / device.frequency) - 1.0).abs() < 1e-12);
+    assert!((place.device()?.resistance / device.resistance - 1.0).abs() < 1e-12);
+    let plane = MotionQuestion {
+        scenario: place.clone(),
+        x: (Coordinate::Parameter(Parameter::Omega), (place.parameters.omega, 9.0)),
+        y: (Coordinate::Parameter(Parameter::Beta), (place.parameters.beta, 0.02)),
+        size: (2, 2),
+        t_end: 200.0,
+    };
+    let mut same = MotionChart::new(plane);
+    complete(&mut same);
+    let [a, b] = [chart.cell(1, 2), same.cell(0, 0)].map(|cell| cell.flatten().map(|cell| cell.v_rms));
+    assert!((a.ok_or("a cell")? / b.ok_or("a cell")? - 1.0).abs() < 1e-9, "{a:?} {b:?}");
+    Ok(())
+}
+
+#[test]
+fn a_map_is_the_bench_at_every_place_and_marks_what_is_not_allowed() -> TestResult {
+    let limits = Limits { voltage: Some((8.0, 9.0)), ..Default::default() };
+    let question = question(Objective::PowerPerG2, limits);
+    let mut map = DesignMap::new(question.clone(), (7, 5))?;
+    complete(&mut map);
+    assert!(map.finished() && map.failure().is_none());
+    let coordinates = [Dimension::Frequency, Dimension::Resistance].map(Coordinate::Dimension);
+    let mut forbidden = 0;
+    for (column, row) in [(0, 0), (3, 2), (6, 4), (2, 4)] {
+        let found = map.cell((column, row)).ok_or("known")?;
+        let scenario = at_place(&question.scenario, &coordinates, &map.values((column, row)))?;
+        let harvest = operating(&scenario)?.reached.harvest;
+        let (a, b) = (found.value, harvest.and_then(|harvest| harvest.power_per_g2));
+        assert!((a.ok_or("lasts")? / b.ok_or("lasts")? - 1.0).abs() < 1e-6, "{a:?} {b:?}");
+        let (system, _) = scenario.validate()?;
+        let allowed = harvest.is_some_and(|harvest| limits.allow(&harvest.demand, Plant::gap(&system)));
+        assert_eq!(found.violation == 0.0, allowed);
+        forbidden += usize::from(!allowed);
+    }
+    assert!((1..4).contains(&forbidden), "{forbidden}");
+    let (place, best) = map.best().ok_or("one is allowed")?;
+    assert!(best.violation == 0.0 && map.cell(place) == Some(&best));
+    assert!(DesignMap::new(FindQuestion { variables: Vec::new(), ..question }, (7, 5)).is_err());
+    Ok(())
+}
