@@ -10,6 +10,9 @@ use crate::app::{fonts, theme};
 use crate::export::Layer;
 use crate::export::figure::Anchor;
 
+/// Opacity of what is behind a name on a plot.
+const BEHIND: f32 = 0.65;
+
 /// A curve in the style of its kind. Points that are not finite leave gaps. The name shows at the pointer.
 pub fn series<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [PlotPoint]) {
     let colour = kind.colour(theme::tokens_in(plot.ctx()));
@@ -218,8 +221,6 @@ pub fn label(plot: &mut PlotUi<'_>, text: &str, place: [f64; 2], colour: egui::C
 pub fn special_point(plot: &mut PlotUi<'_>, name: &str, place: PlotPoint) {
     let tokens = theme::tokens_in(plot.ctx());
     recorder::draw(plot, &mut || Layer::Special { name: name.to_owned(), place: [place.x, place.y] });
-    let mark = Points::new(name, vec![[place.x, place.y]]).radius(5.0).color(tokens.text_strong);
-    plot.points(mark.shape(egui_plot::MarkerShape::Diamond));
     let font = fonts::regular(theme::size::SMALL + 0.5);
     let spaced = format!("  {name}  ");
     let layout = |fonts: &mut egui::epaint::text::FontsView<'_>| {
@@ -227,9 +228,15 @@ pub fn special_point(plot: &mut PlotUi<'_>, name: &str, place: PlotPoint) {
     };
     let size = plot.ctx().fonts_mut(layout);
     let anchor = anchor_with_room(plot.screen_from_plot(place), size, *plot.transform().frame());
-    let rich = egui::RichText::new(spaced).font(font).color(tokens.text_strong);
+    let behind = tokens.card.gamma_multiply(BEHIND);
+    let rich = egui::RichText::new(spaced).font(font).color(tokens.text_strong).background_color(behind);
     let text = Text::new("", place, rich).color(tokens.text_strong);
     plot.text(text.anchor(anchor).allow_hover(false));
+    // On a map any colour may be behind it.
+    for (radius, colour) in [(7.0, tokens.card), (5.0, tokens.text_strong)] {
+        let mark = Points::new(name, vec![[place.x, place.y]]).radius(radius).color(colour);
+        plot.points(mark.shape(egui_plot::MarkerShape::Diamond));
+    }
 }
 
 /// Which corner of a text is at `place`, so that it ends within the frame: to the right and up where it can be.
