@@ -55,22 +55,21 @@ pub(in crate::app) fn request(view: &View, session: &Session) -> String {
 
 /// What the stability chart shows, and over which frequencies and amplitudes.
 fn charted(view: &View, boundaries: &Boundaries) -> (&'static str, String, String) {
+    let motions = |quantity| {
+        let question = questions::motions(view, boundaries);
+        (quantity, question.x.1, question.y.1, question.size)
+    };
+    let (quantity, omega, beta, (columns, rows)) = match view.layer {
+        Layer::Multiplier => {
+            let question = questions::chart(view, boundaries);
+            ("multiplier", question.omega, question.beta, question.size)
+        }
+        Layer::Motion => motions("motion"),
+        Layer::Voltage => motions("v_rms"),
+        Layer::Power => motions("power"),
+    };
     let span = |(from, to): (f64, f64), count: usize| {
         format!("{{\"from\":{},\"to\":{},\"count\":{count}}}", exact(from), exact(to))
     };
-    let quantity = match view.layer {
-        Layer::Multiplier => {
-            let question = questions::chart(view, boundaries);
-            return (
-                "multiplier",
-                span(question.omega, question.size.0),
-                span(question.beta, question.size.1),
-            );
-        }
-        Layer::Motion => "motion",
-        Layer::Voltage => "v_rms",
-        Layer::Power => "power",
-    };
-    let question = questions::motions(view, boundaries);
-    (quantity, span(question.x.1, question.size.0), span(question.y.1, question.size.1))
+    (quantity, span(omega, columns), span(beta, rows))
 }

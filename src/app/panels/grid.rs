@@ -19,12 +19,7 @@ pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], draw: &mut dyn FnMut(&mut Ui, &T
     let columns = if ui.available_width() >= TWO_COLUMNS { 2 } else { 1 };
     let rows = cards.len().div_ceil(columns);
     let width = ((ui.available_width() - GAP * (columns - 1) as f32) / columns as f32).floor();
-    let least = if columns == 1 { LEAST_HEIGHT_ALONE } else { LEAST_HEIGHT };
-    let room = ui.available_height();
-    let in_sight = (room / USUAL_HEIGHT).round().clamp(1.0, rows as f32);
-    let (hidden, least) =
-        if in_sight < rows as f32 { (GAP + PEEK, least.max(USUAL_HEIGHT)) } else { (0.0, least) };
-    let height = ((room - hidden - GAP * (in_sight - 1.0)) / in_sight).floor().max(least);
+    let height = row_height(ui.available_height(), rows, columns);
     for (index, row) in cards.chunks(columns).enumerate() {
         if index > 0 {
             ui.add_space(GAP - ui.spacing().item_spacing.y);
@@ -38,6 +33,15 @@ pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], draw: &mut dyn FnMut(&mut Ui, &T
     }
 }
 
+/// Height of a row of cards, of which as many as are high enough to be read share the `room` of the page.
+fn row_height(room: f32, rows: usize, columns: usize) -> f32 {
+    let least = if columns == 1 { LEAST_HEIGHT_ALONE } else { LEAST_HEIGHT };
+    let in_sight = (room / USUAL_HEIGHT).round().clamp(1.0, rows as f32);
+    let (hidden, least) =
+        if in_sight < rows as f32 { (GAP + PEEK, least.max(USUAL_HEIGHT)) } else { (0.0, least) };
+    ((room - hidden - GAP * (in_sight - 1.0)) / in_sight).floor().max(least)
+}
+
 /// A place of this size.
 pub(super) fn place(ui: &mut Ui, width: f32, height: f32, draw: &mut dyn FnMut(&mut Ui)) {
     ui.allocate_ui(vec2(width, height), |ui| {
@@ -45,4 +49,22 @@ pub(super) fn place(ui: &mut Ui, width: f32, height: f32, draw: &mut dyn FnMut(&
         ui.set_max_size(vec2(width, height));
         draw(ui);
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_fill_the_page_or_show_that_there_are_more() {
+        // Two rows share the page, however low it is, down to a height that can be read.
+        assert_eq!(row_height(750.0, 2, 2), 370.0);
+        assert_eq!(row_height(560.0, 2, 2), 275.0);
+        assert_eq!(row_height(300.0, 2, 2), USUAL_HEIGHT);
+        // Of three rows two are seen on a laptop, with the titles of the third; all on a projector.
+        let height = row_height(750.0, 3, 2);
+        assert_eq!(750.0 - 2.0 * (height + GAP), PEEK);
+        assert_eq!(row_height(930.0, 3, 2), 303.0);
+        assert_eq!(row_height(600.0, 6, 1), LEAST_HEIGHT_ALONE);
+    }
 }
