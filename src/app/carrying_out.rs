@@ -37,6 +37,11 @@ impl App {
             }
             Command::Measure(Some(reading)) => self.bench.measured.read(reading),
             Command::Measure(None) => self.bench.measured = bench::measured::Measured::default(),
+            Command::MeasureRun => {
+                if let Some(shown) = &self.session.shown {
+                    self.bench.measured.open("run.csv", bench::measured::record(shown).into_bytes());
+                }
+            }
             Command::LoadFigure(number) => self.load_figure(number),
             Command::Enlarge(panel) => self.view.enlarged = panel,
             Command::Pin(keep) => {

@@ -40,6 +40,8 @@ pub(super) enum Command {
     Find(bool),
     /// Read the file's columns so, or close it.
     Measure(Option<Reading>),
+    /// Take the end of the run in view as if it were a file of measured data.
+    MeasureRun,
     /// Load a figure of the paper.
     LoadFigure(u8),
     /// Fill the page with a panel, or show all of them again.

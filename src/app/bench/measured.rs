@@ -1,8 +1,11 @@
 //! A file of measured data: opened at once, read a slice a frame.
 
+use std::f64::consts::TAU;
+
 use egui_plot::PlotPoint;
 
 use crate::app::clock::milliseconds;
+use crate::app::session::Shown;
 use crate::app::text::reworded;
 use crate::jobs::design::measured::{Columns, Import, Layout, MeasuredError, detect};
 use crate::jobs::design::thin::{Thinner, extent};
@@ -10,6 +13,9 @@ use crate::jobs::design::thin::{Thinner, extent};
 /// Time that a frame may spend on reading, and rows between looks at the clock.
 const BUDGET_MS: f64 = 6.0;
 const ROWS: usize = 500;
+/// Excitation periods of a run that are taken as a record, and rows for each.
+const RECORDED: f64 = 20.0;
+const ROWS_PER_PERIOD: usize = 200;
 /// Buckets of the curve that is drawn.
 const BUCKETS: usize = 1500;
 
@@ -153,6 +159,20 @@ impl File {
         let peak = self.points.iter().map(|point| (point[1] - mean).abs()).fold(0.0, f64::max);
         self.measures = Some((square.sqrt(), peak));
     }
+}
+
+/// The end of a run as the text of a file, such as an instrument writes: time (s) and voltage (V).
+pub(in crate::app) fn record(shown: &Shown) -> String {
+    let unit = shown.scenario.units().time;
+    let end = shown.run.trajectory.end_time();
+    let span = (RECORDED * TAU / shown.scenario.parameters.omega).min(end);
+    let rows = RECORDED as usize * ROWS_PER_PERIOD + 1;
+    let mut text = "time [s],voltage [V]\n".to_owned();
+    let voltage = shown.run.system.dimension() - 1;
+    shown.run.trajectory.sample(end - span, end, rows, |time, state| {
+        text += &format!("{},{}\n", time * unit, state[voltage]);
+    });
+    text
 }
 
 /// A header that speaks of frequency or hertz says what the first column is.

@@ -23,18 +23,39 @@ const PAIRS: usize = 400;
 const PER_PERIOD: f64 = 120.0;
 /// Points of the computed curve.
 const POINTS: usize = 3000;
+/// Excitation periods of the run that are shown before there is a record.
+const BEFORE_A_RECORD: f64 = 12.0;
 
 /// The computed voltage over the record's time: the end of the run, so much earlier as was chosen, at its end.
 pub(super) fn computed(context: &Context<'_>, file: &File) -> Vec<PlotPoint> {
-    let mut curve = Vec::with_capacity(POINTS);
-    let (Some(shown), Some([first, last])) = (context.shown(), ends(file)) else { return curve };
+    let (Some(shown), Some([first, last])) = (context.shown(), ends(file)) else { return Vec::new() };
     let unit = context.view.scenario.units().time;
     let end = shown.run.trajectory.end_time() - file.reading.shift * TAU / shown.scenario.parameters.omega;
-    let span = ((last - first) / unit).min(end);
+    voltages(shown, end, (last - first) / unit, POINTS, |time| last + (time - end) * unit)
+}
+
+/// The end of the run in view in seconds and volts, where there is no record yet.
+pub(super) fn run_in_view(context: &Context<'_>) -> Vec<PlotPoint> {
+    let Some(shown) = context.shown() else { return Vec::new() };
+    let unit = context.view.scenario.units().time;
+    let span = BEFORE_A_RECORD * TAU / shown.scenario.parameters.omega;
+    voltages(shown, shown.run.trajectory.end_time(), span, POINTS / 4, |time| time * unit)
+}
+
+/// The computed voltage over `span` up to `end`, both dimensionless, at the places that `seconds` gives to its times.
+fn voltages(
+    shown: &Shown,
+    end: f64,
+    span: f64,
+    count: usize,
+    seconds: impl Fn(f64) -> f64,
+) -> Vec<PlotPoint> {
+    let mut curve = Vec::with_capacity(count);
+    let span = span.min(end);
     if span > 0.0 {
         let voltage = shown.run.system.dimension() - 1;
-        shown.run.trajectory.sample(end - span, end, POINTS, |time, state| {
-            curve.push(PlotPoint::new(last + (time - end) * unit, state[voltage]));
+        shown.run.trajectory.sample(end - span, end, count, |time, state| {
+            curve.push(PlotPoint::new(seconds(time), state[voltage]));
         });
     }
     curve

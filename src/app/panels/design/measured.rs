@@ -27,17 +27,32 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         None => tr("drop a file anywhere on the page").to_owned(),
     };
     context.plot_card(ui, Panel::Measured, tr("Measured"), &hint, |context, ui| {
-        let Some(file) = &context.bench.measured.file else {
-            let text = tr("Drop a text file here, or open one: columns of time and voltage, or of frequency and voltage. \
-                           It stays in this browser.");
-            plot_style::no_data(ui, ui.available_rect_before_wrap(), text);
-            return;
-        };
-        match file.reading.domain {
-            Domain::Time => over_time(context, ui, file),
-            Domain::Frequency => frequencies(context, ui, file),
+        match &context.bench.measured.file {
+            None => before_a_file(context, ui),
+            Some(file) => match file.reading.domain {
+                Domain::Time => over_time(context, ui, file),
+                Domain::Frequency => frequencies(context, ui, file),
+            },
         }
     });
+}
+
+/// What a record is going to be laid over, and how to bring one.
+fn before_a_file(context: &Context<'_>, ui: &mut Ui) {
+    let text =
+        tr("Drop a text file here, or open one: columns of time and voltage, or of frequency and voltage. \
+                   It stays in this browser.");
+    let weak = theme::tokens(ui).text_weak;
+    ui.add(egui::Label::new(RichText::new(text).color(weak)).wrap());
+    legend::legend(ui, &[(Series::Numeric, tr("computed: the end of the run"))]);
+    let curve = alignment::run_in_view(context);
+    let (x, y) = time_and_voltage();
+    plot_style::plot(ui, "before a file", &x, &y)
+        .show(ui, |plot| plot_style::series(plot, Series::Numeric, tr("computed"), &curve));
+}
+
+fn time_and_voltage() -> (Axis, Axis) {
+    (Axis::new(tr("time"), "t").unit("s"), Axis::new(tr("voltage"), "v").unit("V"))
 }
 
 /// Voltage over time, beside the end of the run in view.
@@ -47,7 +62,7 @@ fn over_time(context: &Context<'_>, ui: &mut Ui, file: &File) {
         &[(Series::Measured, tr("measured")), (Series::Numeric, tr("computed: the end of the run"))],
     );
     let curve = alignment::computed(context, file);
-    let (x, y) = (Axis::new(tr("time"), "t").unit("s"), Axis::new(tr("voltage"), "v").unit("V"));
+    let (x, y) = time_and_voltage();
     plot_style::plot(ui, ("measured", file.name.as_str(), 0), &x, &y).show(ui, |plot| {
         plot_style::series(plot, Series::Numeric, tr("computed"), &curve);
         let colour = theme::tokens_in(plot.ctx()).theory;
@@ -124,6 +139,9 @@ pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
                 let text = tr("Comma, semicolon, tab or blanks between the columns, decimal point or comma, any header: \
                                these are found out. A million rows are welcome.");
                 ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
+                if ui.add_enabled(context.shown().is_some(), egui::Button::new(tr("Try it with the run in view"))).clicked() {
+                    context.commands.push(Command::MeasureRun);
+                }
             }
         }
     });

@@ -72,3 +72,21 @@ fn a_record_of_the_run_itself_is_aligned_with_it() {
     assert!((shift - 1.3).abs() < 1e-3, "{shift}");
     desk.harness.find(Role::Label, "what is left between them: ");
 }
+
+#[test]
+fn before_there_is_a_file_the_run_in_view_can_stand_for_one() {
+    let mut desk = desk(1440.0, "measured");
+    desk.work(20);
+    let button = desk.harness.find(Role::Button, "Try it with the run in view").bounds.center();
+    let Desk { app, harness } = &mut desk;
+    harness.click(button, |ui| app.ui(ui));
+    desk.work(20);
+    let file = desk.app.bench.measured.file.as_ref().expect("a file");
+    let (run, unit) =
+        (&desk.app.session.shown.as_ref().expect("a run").run, desk.app.view.scenario.units().time);
+    let [time, volts] = file.points[1234];
+    let state = run.trajectory.state_at(time / unit);
+    assert!((volts - state[run.system.dimension() - 1]).abs() < 1e-9, "{volts} V");
+    desk.harness.find(Role::Label, "4001 rows read");
+    desk.harness.find(Role::Label, "what is left between them: ");
+}
