@@ -1,6 +1,7 @@
 //! The design bench: loads, frequencies, ceramics, trust, and the search for designs.
 
 mod search;
+mod within_limits;
 
 use harvester_lab::dynamics::sweep::Dwell;
 use harvester_lab::dynamics::tongue::Window;
@@ -8,6 +9,7 @@ use harvester_lab::dynamics::{Motion, critical_excitation};
 use harvester_lab::jobs::design::band::{half_power, total, usable};
 use harvester_lab::jobs::design::load::{best, best_frequency};
 use harvester_lab::jobs::design::materials::with_ceramic;
+use harvester_lab::jobs::design::point::powers;
 use harvester_lab::jobs::design::trust::{LAWS, Quantity, force_beyond_linear, law_error, trust_entry};
 use harvester_lab::jobs::design::{Plant, operating};
 use harvester_lab::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
@@ -16,7 +18,7 @@ use harvester_lab::jobs::study::sweep::Direction;
 use harvester_lab::jobs::study::table::Table;
 use harvester_lab::jobs::study::{Study, complete};
 use harvester_lab::model::materials::Ceramic;
-use harvester_lab::model::{ForceLaw, ParameterSet};
+use harvester_lab::model::{ForceLaw, Limits, ParameterSet};
 use harvester_lab::scenario::Scenario;
 use harvester_lab::theory::Resonance;
 
@@ -66,12 +68,22 @@ fn the_doubled_motion_is_followed_over_loads_and_the_linear_optimum_is_the_close
 fn the_best_frequency_beats_the_given_one() -> TestResult {
     let scenario = figure_9();
     let plant = Plant::new(&scenario)?;
-    let found = best_frequency(&scenario, plant.resistance(), (7.5, 8.8))?;
+    let (window, limits) = ((7.5, 8.8), Limits::default());
+    let found = best_frequency(&scenario, plant.resistance(), window, limits)?;
     let own = operating(&scenario)?;
     println!("{found:?}");
     assert!(found.linear[1] >= own.linear.power);
-    let nonlinear = found.nonlinear.ok_or("a stable motion")?;
-    assert!(nonlinear[1] >= 0.999 * own.reached.harvest.ok_or("it lasts")?.power && found.periods == 2);
+    let stable = found.stable.ok_or("a stable motion")?;
+    assert!(stable.power >= 0.999 * own.reached.harvest.ok_or("it lasts")?.power && stable.periods == 2);
+    assert_eq!(found.within_limits, found.stable);
+    // A voltage below the best motion's takes it away; one below every motion's leaves none.
+    let at_most = |volts: f64| Limits { voltage: Some((volts, volts)), ..limits };
+    let volts = 0.7 * stable.v_peak;
+    let found = best_frequency(&scenario, plant.resistance(), window, at_most(volts))?;
+    let within = found.within_limits.ok_or("a motion within the limits")?;
+    assert!(found.stable == Some(stable) && within.v_peak <= volts && within.power < stable.power);
+    let found = best_frequency(&scenario, plant.resistance(), window, at_most(0.1))?;
+    assert_eq!(found.within_limits, None);
     Ok(())
 }
 
@@ -89,7 +101,7 @@ fn the_frequency_curves_agree_with_one_another() -> TestResult {
         assert_eq!(study.swept(direction).len(), 23);
     }
     // What is reached from rest and repeats lies on a stable branch.
-    let stable = study.stable_power();
+    let stable = powers(&study.stable_pieces());
     for (motion, point) in study.from_rest().iter().flatten().flatten() {
         let Motion::Periodic { periods } = motion else { continue };
         let on = stable.iter().flat_map(|curve| curve.windows(2)).any(|pair| {
@@ -101,11 +113,12 @@ fn the_frequency_curves_agree_with_one_another() -> TestResult {
         assert!(on || *periods > 4, "{motion:?} {point:?}");
     }
     let least = 1e-5;
-    let (linear, rest) = (study.linear(), usable(&study.rest_power(), least));
+    let rest = powers(&study.rest_pieces());
+    let (linear, band) = (study.linear(), usable(&rest, least));
     let points: Vec<[f64; 2]> = linear.points.iter().map(|point| [point[0], point[2]]).collect();
-    println!("usable {rest:?}, linear {:?}, peak {:?}", usable(&[points], least), linear.peak);
-    println!("half power {:?}", half_power(&study.rest_power()));
-    assert!(total(&rest) > 0.0 && linear.peak[1] < least);
+    println!("usable {band:?}, linear {:?}, peak {:?}", usable(&[points], least), linear.peak);
+    println!("half power {:?}", half_power(&rest));
+    assert!(total(&band) > 0.0 && linear.peak[1] < least);
     Ok(())
 }
 

@@ -114,9 +114,10 @@ pub(in crate::app) fn best_frequencies(view: &View, session: &Session, loads: &L
         scenario.parameters.omega = window.0;
     }
     scenario.parameters.kappa = Parameter::Kappa.get(&Default::default());
+    let limits = bench::limits(view);
     let work = |resistance: &f64| {
         let (scenario, resistance) = (scenario.clone(), *resistance);
-        Work::Design(DesignWork::BestFrequency { scenario, resistance, window })
+        Work::Design(DesignWork::BestFrequency { scenario, resistance, window, limits })
     };
     Table::new(loads.resistances().iter().step_by(EVERY_LOAD).map(work).collect())
 }

@@ -107,7 +107,7 @@ impl App {
         };
         let tip = (summary.tip_min, summary.tip_max);
         let demand = Demand { v_peak: summary.v_peak, tip, slope: None };
-        let checks = safety.limits.checks(&demand, safety.gap);
+        let checks = safety.checks(&demand);
         checks.iter().map(|check| (in_words(check), check.standing == Standing::Within)).collect()
     }
 }

@@ -155,7 +155,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
     };
     let safety = Safety::of(context.view, context.session);
     let unsafe_in = |cell: &Cell| match (&safety, cell.demand()) {
-        (Some(safety), Some(demand)) => !safety.limits.allow(&demand, safety.gap),
+        (Some(Safety(bounds)), Some(demand)) => !bounds.limits.allow(&demand, bounds.gap),
         _ => false,
     };
     let paint = |column: usize, row: usize| {

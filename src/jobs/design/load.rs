@@ -4,12 +4,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::linear::linear_peak;
-use super::{DesignError, Plant};
+use super::{Bounds, DesignError, HarvestPoint, Plant};
 use crate::dynamics::motion::{Cell, Horizon};
 use crate::dynamics::orbit::Measures;
 use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError, reach};
 use crate::jobs::response::response;
-use crate::model::{ModelError, Parameter, ReducedSystem};
+use crate::model::{Limits, ModelError, Parameter, ReducedSystem};
 use crate::scenario::Scenario;
 use crate::theory::{Source, TheoryError};
 
@@ -128,6 +128,21 @@ pub fn reached_loads(
     Ok((points, carried))
 }
 
+/// The stable periodic motion that gives most, and where.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct Peak {
+    /// Frequency (Hz).
+    pub frequency: f64,
+    /// Mean power in the load (W).
+    pub power: f64,
+    /// Its period in excitation periods.
+    pub periods: usize,
+    /// Largest |v| (V).
+    pub v_peak: f64,
+    /// Lowest and highest tip displacement (mm).
+    pub tip: (f64, f64),
+}
+
 /// The best frequency under a load.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct BestFrequency {
@@ -135,14 +150,15 @@ pub struct BestFrequency {
     pub resistance: f64,
     /// Frequency (Hz) and power (W) of the linear device.
     pub linear: [f64; 2],
-    /// Frequency (Hz) and power (W) of the stable periodic motion that gives most; `None` when there is none.
-    pub nonlinear: Option<[f64; 2]>,
-    /// Its period in excitation periods.
-    pub periods: usize,
+    /// Of the stable periodic motions; `None` when there is none.
+    pub stable: Option<Peak>,
+    /// Of those that keep the limits.
+    pub within_limits: Option<Peak>,
 }
 
 /// The best frequency for a load of `resistance` (ohm) with omega in `window` (dimensionless): of the linear device, and
-/// of the stable periodic motions on the forced branch and its doubled ones, at the points that represent them.
+/// of the stable periodic motions on the forced branch and its doubled ones, at the points that represent them, all
+/// of them and those within `limits`.
 ///
 /// # Errors
 /// [`DesignError`].
@@ -150,9 +166,11 @@ pub fn best_frequency(
     scenario: &Scenario,
     resistance: f64,
     window: (f64, f64),
+    limits: Limits,
 ) -> Result<BestFrequency, DesignError> {
     crate::jobs::response::check_range(Parameter::Omega, window)?;
     let plant = Plant::new(scenario)?.with_resistance(resistance)?;
+    let bounds = Bounds::new(&plant, limits)?;
     let (omega, power) = linear_peak(&plant, window)?;
     if !power.is_finite() {
         return Err(TheoryError::Undamped { omega }.into());
@@ -165,14 +183,17 @@ pub fn best_frequency(
         curves => curves.unwrap_or_default(),
     };
     let points = curves.iter().flat_map(|curve| curve.points.iter().map(move |point| (curve.periods, point)));
-    let best = points
-        .filter(|(_, point)| point.multiplier < 1.0)
-        .max_by(|(_, a), (_, b)| a.v_rms.total_cmp(&b.v_rms));
+    let stable = points.filter(|(_, point)| point.multiplier < 1.0).map(|(periods, point)| {
+        let HarvestPoint { frequency, power, v_peak, tip, .. } = HarvestPoint::of_branch(&plant, point);
+        Peak { frequency, power, periods, v_peak, tip }
+    });
+    let highest = |a: &Peak, b: &Peak| a.power.total_cmp(&b.power);
+    let within = stable.clone().filter(|peak| bounds.allows(peak.v_peak, peak.tip));
     Ok(BestFrequency {
         resistance,
         linear: [plant.units.hertz(omega), power],
-        nonlinear: best.map(|(_, point)| [plant.units.hertz(point.value), plant.watts(point.v_rms)]),
-        periods: best.map_or(1, |(periods, _)| periods),
+        within_limits: within.max_by(highest),
+        stable: stable.max_by(highest),
     })
 }
 

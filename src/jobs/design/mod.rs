@@ -3,6 +3,7 @@
 
 pub mod alignment;
 pub mod band;
+pub mod bounds;
 pub mod error;
 pub mod evolution;
 pub mod find;
@@ -13,12 +14,15 @@ pub mod load;
 pub mod materials;
 pub mod measured;
 pub mod plant;
+pub mod point;
 pub mod thin;
 pub mod trust;
 pub mod work;
 
 pub use band::Interval;
+pub use bounds::Bounds;
 pub use error::DesignError;
 pub use harvest::{Harvest, Operating, operating};
 pub use plant::Plant;
+pub use point::HarvestPoint;
 pub use work::{DesignFinding, DesignWork};

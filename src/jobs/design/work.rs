@@ -7,8 +7,8 @@ use super::load::{BestFrequency, LoadPoint, best_frequency, forced_loads, reache
 use super::materials::{MaterialRow, material_row};
 use super::trust::{Quantity, TrustEntry, trust_entry};
 use crate::dynamics::tongue::Window;
-use crate::model::ForceLaw;
 use crate::model::materials::Ceramic;
+use crate::model::{ForceLaw, Limits};
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
@@ -44,6 +44,8 @@ pub enum DesignWork {
         resistance: f64,
         /// Lowest and highest omega (dimensionless).
         window: (f64, f64),
+        /// What must be kept.
+        limits: Limits,
     },
     /// A ceramic on the device.
     Material {
@@ -117,8 +119,8 @@ impl DesignWork {
                 let (points, state) = reached_loads(scenario, resistances, state.as_deref())?;
                 DesignFinding::ReachedLoads { points, state }
             }
-            Self::BestFrequency { scenario, resistance, window } => {
-                DesignFinding::BestFrequency(best_frequency(scenario, *resistance, *window)?)
+            Self::BestFrequency { scenario, resistance, window, limits } => {
+                DesignFinding::BestFrequency(best_frequency(scenario, *resistance, *window, *limits)?)
             }
             Self::Material { scenario, ceramic, mode, resonance, window } => {
                 let row = material_row(scenario, *ceramic, *mode, *resonance, *window)?;

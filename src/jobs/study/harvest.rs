@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::Study;
 use super::sweep::{Direction, SweepQuestion, SweepStudy};
 use crate::dynamics::Motion;
-use crate::dynamics::sweep::{Dwell, SweepPoint};
+use crate::dynamics::sweep::Dwell;
 use crate::jobs::design::linear::{LinearCurve, linear_curve};
-use crate::jobs::design::{DesignError, Plant};
+use crate::jobs::design::{DesignError, HarvestPoint, Plant};
 use crate::jobs::motions::{Coordinate, MotionPlane};
 use crate::jobs::response::{ResponseCurve, ResponsePoint};
 use crate::jobs::work::{Finding, Work};
@@ -33,47 +33,6 @@ pub struct HarvestQuestion {
     pub count: usize,
     /// How long a frequency is held in a sweep.
     pub dwell: Dwell,
-}
-
-/// A point of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct HarvestPoint {
-    /// Frequency (Hz).
-    pub frequency: f64,
-    /// Root mean square of the voltage (V).
-    pub v_rms: f64,
-    /// Largest |v| (V).
-    pub v_peak: f64,
-    /// Mean power in the load (W).
-    pub power: f64,
-    /// The same over the square of the base's acceleration there (W/g^2).
-    pub power_per_g2: f64,
-    /// Lowest and highest tip displacement (mm).
-    pub tip: (f64, f64),
-}
-
-impl HarvestPoint {
-    fn new(plant: &Plant, omega: f64, (v_rms, v_peak): (f64, f64), tip: (f64, f64)) -> Self {
-        let units = &plant.units;
-        let power = plant.watts(v_rms);
-        let acceleration = units.acceleration(plant.scenario.parameters.beta, omega);
-        Self {
-            frequency: units.hertz(omega),
-            v_rms,
-            v_peak,
-            power,
-            power_per_g2: if acceleration > 0.0 { power / (acceleration * acceleration) } else { 0.0 },
-            tip: (units.millimetres(tip.0), units.millimetres(tip.1)),
-        }
-    }
-
-    fn of_sweep(plant: &Plant, point: &SweepPoint) -> Self {
-        Self::new(plant, point.value, (point.v_rms, point.v_peak), point.tip)
-    }
-
-    fn of_branch(plant: &Plant, point: &ResponsePoint) -> Self {
-        Self::new(plant, point.value, (point.v_rms, point.v_peak), point.tip)
-    }
 }
 
 /// The curves being computed.
@@ -130,6 +89,12 @@ impl HarvestStudy {
         &self.linear
     }
 
+    /// The same as points of a curve.
+    pub fn linear_points(&self) -> Vec<HarvestPoint> {
+        let points = self.linear.points.iter();
+        points.map(|point| HarvestPoint::of_linear(&self.plant, *point)).collect()
+    }
+
     /// The forced branch and the doubled ones; why there are none, or `None` until they are known.
     pub fn branches(&self) -> Option<Result<&[ResponseCurve], &str>> {
         self.branches.as_ref().map(|found| found.as_deref().map_err(String::as_str))
@@ -148,6 +113,14 @@ impl HarvestStudy {
         points.map(|point| HarvestPoint::of_sweep(&self.plant, point)).collect()
     }
 
+    /// The same without the ended motions, cut where they were.
+    pub fn swept_pieces(&self, direction: Direction) -> Vec<Vec<HarvestPoint>> {
+        let points = self.swept(direction);
+        let lasts = |point: &HarvestPoint| point.v_peak > 0.0;
+        let runs = points.chunk_by(|a, b| lasts(a) == lasts(b)).filter(|run| run.first().is_some_and(lasts));
+        runs.map(<[_]>::to_vec).collect()
+    }
+
     /// What is reached from rest, by ascending frequency; `None` until it is known, the inner one where the motion ends
     /// or cannot be followed.
     pub fn from_rest(&self) -> &[Option<Option<(Motion, HarvestPoint)>>] {
@@ -159,34 +132,27 @@ impl HarvestStudy {
         self.failure.as_deref().or_else(|| self.sweeps.failure())
     }
 
-    /// (Frequency, power) of the stable pieces of all branches, for the bands.
-    pub fn stable_power(&self) -> Vec<Vec<[f64; 2]>> {
+    /// The stable pieces of all branches.
+    pub fn stable_pieces(&self) -> Vec<Vec<HarvestPoint>> {
         let curves = self.branches().and_then(Result::ok).unwrap_or_default();
         let points = curves.iter().map(|curve| self.branch_points(curve));
         let mut pieces = Vec::new();
         for points in points {
             let runs = points.chunk_by(|a, b| a.1 == b.1).filter(|run| run[0].1);
-            pieces.extend(
-                runs.map(|run| run.iter().map(|(point, _)| [point.frequency, point.power]).collect()),
-            );
+            pieces.extend(runs.map(|run| run.iter().map(|(point, _)| *point).collect()));
         }
         pieces
     }
 
-    /// The same of a sweep.
-    pub fn swept_power(&self, direction: Direction) -> Vec<Vec<[f64; 2]>> {
-        vec![self.swept(direction).iter().map(|point| [point.frequency, point.power]).collect()]
-    }
-
-    /// The same of the starts from rest, cut where they end or are not known.
-    pub fn rest_power(&self) -> Vec<Vec<[f64; 2]>> {
+    /// What is reached from rest, cut where the motion ends or is not known.
+    pub fn rest_pieces(&self) -> Vec<Vec<HarvestPoint>> {
         let known =
             |start: &Option<Option<(Motion, HarvestPoint)>>| start.as_ref().and_then(Option::as_ref).copied();
         let runs = self.starts.chunk_by(|a, b| known(a).is_some() == known(b).is_some());
-        let curve = |run: &[_]| -> Vec<[f64; 2]> {
-            run.iter().filter_map(known).map(|(_, point)| [point.frequency, point.power]).collect()
+        let piece = |run: &[_]| -> Vec<HarvestPoint> {
+            run.iter().filter_map(known).map(|(_, point)| point).collect()
         };
-        runs.map(curve).filter(|curve| !curve.is_empty()).collect()
+        runs.map(piece).filter(|piece| !piece.is_empty()).collect()
     }
 
     fn omega(&self, index: usize) -> f64 {

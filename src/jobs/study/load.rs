@@ -7,7 +7,7 @@ use crate::jobs::design::load::{BestFrequency, LoadPoint, decades, linear_loads}
 use crate::jobs::design::{DesignError, DesignFinding, DesignWork, Plant};
 use crate::jobs::response::check_range;
 use crate::jobs::work::{Finding, Work};
-use crate::model::{ModelError, Parameter};
+use crate::model::{Limits, ModelError, Parameter};
 use crate::scenario::Scenario;
 
 /// Numbers of loads a decade may have.
@@ -30,10 +30,13 @@ pub struct LoadQuestion {
     pub per_decade: usize,
     /// Lowest and highest omega (dimensionless) among which the best frequency is looked for; not looked for without.
     pub window: Option<(f64, f64)>,
+    /// What must be kept at the best frequency.
+    pub limits: Limits,
 }
 
 impl LoadQuestion {
-    /// Six decades about the load of `scenario`, or about the best one of the linear device where there is no load.
+    /// Six decades about the load of `scenario`, or about the best one of the linear device where there is no load; the
+    /// limits are the device's own.
     ///
     /// # Errors
     /// [`DesignError`].
@@ -44,7 +47,8 @@ impl LoadQuestion {
         // The largest conductance that the model takes ends the range.
         let lowest = 1.0 / (plant.units.power * Parameter::Kappa.range().1);
         let low = (1e-3 * middle).max(1.001 * lowest);
-        Ok(Self { scenario, range: (low, 1e6 * low), per_decade: 10, window })
+        let limits = Limits::of(&scenario.base());
+        Ok(Self { scenario, range: (low, 1e6 * low), per_decade: 10, window, limits })
     }
 }
 
@@ -177,8 +181,9 @@ impl LoadStudy {
         let index = self.best_handed;
         let resistance = *self.resistances.get(index)?;
         self.best_handed += 1;
-        let scenario = self.question.scenario.clone();
-        Some((BEST + index, Work::Design(DesignWork::BestFrequency { scenario, resistance, window })))
+        let (scenario, limits) = (self.question.scenario.clone(), self.question.limits);
+        let work = DesignWork::BestFrequency { scenario, resistance, window, limits };
+        Some((BEST + index, Work::Design(work)))
     }
 }
 

@@ -1,19 +1,21 @@
 //! Where enough power is delivered: bands of the curves over frequency, and the least power that counts.
 
-use egui::{Grid, RichText, Ui};
+use egui::{Color32, Grid, RichText, Ui};
 use egui_plot::PlotUi;
 
-use super::harvest::{Measure, linear_points};
+use super::harvest::Measure;
+use super::safety::Safety;
 use crate::app::bench::questions;
 use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, tr};
-use crate::app::theme;
+use crate::app::theme::{self, Tokens};
 use crate::app::view::View;
 use crate::app::widgets::number::{round_significant, significant, with_unit};
 use crate::app::widgets::{Card, ParameterSlider, chips, plot_style};
 use crate::export::Pen;
-use crate::jobs::design::Interval;
 use crate::jobs::design::band::{half_power, total, usable};
+use crate::jobs::design::point::powers;
+use crate::jobs::design::{Bounds, HarvestPoint, Interval};
 use crate::jobs::study::harvest::HarvestStudy;
 use crate::jobs::study::sweep::Direction;
 
@@ -27,29 +29,56 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         .hugging()
         .show(ui, |ui| table(context, ui));
     ui.add_space(grid::GAP);
-    Card::new(tr("Best load")).hugging().show(ui, |ui| super::load::brief(context, ui));
+    Card::new(tr("Best load")).hugging().show(ui, |ui| super::best_load::brief(context, ui));
     ui.add_space(grid::GAP);
     Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
     ui.add_space(grid::GAP);
     Card::new(tr("Frequencies")).hugging().show(ui, |ui| window(context, ui));
 }
 
-/// One curve of power for the bands.
-type Power = Vec<Vec<[f64; 2]>>;
-
-fn curves(study: &HarvestStudy) -> [(&'static str, Power); 5] {
-    let linear = linear_points(study).iter().map(|point| [point.frequency, point.power]).collect();
+/// The pieces of the curves that have bands; the first is the linear device, the second are the stable motions.
+fn curves(study: &HarvestStudy) -> [(&'static str, Vec<Vec<HarvestPoint>>); 5] {
     [
-        (tr("without magnets"), vec![linear]),
-        (tr("stable motions"), study.stable_power()),
-        (tr("from rest"), study.rest_power()),
-        (tr("swept up"), study.swept_power(Direction::Up)),
-        (tr("swept down"), study.swept_power(Direction::Down)),
+        (tr("without magnets"), vec![study.linear_points()]),
+        (tr("stable motions"), study.stable_pieces()),
+        (tr("from rest"), study.rest_pieces()),
+        (tr("swept up"), study.swept_pieces(Direction::Up)),
+        (tr("swept down"), study.swept_pieces(Direction::Down)),
     ]
 }
 
-fn highest(power: &Power) -> Option<[f64; 2]> {
-    power.iter().flatten().copied().max_by(|a, b| a[1].total_cmp(&b[1]))
+fn highest(pieces: &[Vec<HarvestPoint>]) -> Option<HarvestPoint> {
+    pieces.iter().flatten().copied().max_by(|a, b| a.power.total_cmp(&b.power))
+}
+
+/// Where a curve gives enough, and where it does so within the limits.
+struct Enough {
+    bands: Vec<Interval>,
+    safe: Option<Vec<Interval>>,
+}
+
+impl Enough {
+    fn new(pieces: &[Vec<HarvestPoint>], least: f64, bounds: Option<Bounds>) -> Self {
+        let safe = bounds.map(|bounds| usable(&bounds.powers_within(pieces), least));
+        Self { bands: usable(&powers(pieces), least), safe }
+    }
+
+    /// What of them is safe, where that is not all: none, or these.
+    fn cut(&self) -> Option<&[Interval]> {
+        self.safe.as_deref().filter(|safe| *safe != self.bands.as_slice())
+    }
+
+    /// In words, and how they are to be coloured when the limits cut something away.
+    fn in_words(&self, tokens: &Tokens) -> Option<(String, Color32)> {
+        Some(match self.cut()? {
+            [] => (tr("none of it within the limits").to_owned(), tokens.danger),
+            safe => (fill("within the limits: {what}", &[("what", &list(safe, ", "))]), tokens.warning),
+        })
+    }
+}
+
+fn list(intervals: &[Interval], between: &str) -> String {
+    intervals.iter().map(interval).collect::<Vec<_>>().join(between)
 }
 
 /// The power (W) that counts as usable: the one chosen, or half of the highest.
@@ -57,7 +86,7 @@ fn least(view: &View, study: &HarvestStudy) -> f64 {
     view.design.least.unwrap_or_else(|| {
         let all = curves(study);
         let top =
-            all.iter().filter_map(|(_, power)| highest(power)).map(|place| place[1]).fold(0.0, f64::max);
+            all.iter().filter_map(|(_, pieces)| highest(pieces)).map(|point| point.power).fold(0.0, f64::max);
         round_significant(0.5 * top, 2)
     })
 }
@@ -80,49 +109,54 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     }
     ui.add_space(4.0);
     let all = curves(study);
+    let bounds = Safety::of(context.view, context.session).map(|safety| safety.0);
+    let enough: [Enough; 5] = std::array::from_fn(|index| {
+        // The linear device has no magnets to touch.
+        let bounds = if index == 0 { bounds.as_ref().map(Bounds::without_magnets) } else { bounds };
+        Enough::new(&all[index].1, present, bounds)
+    });
     ui.spacing_mut().interact_size.y = 18.0;
     Grid::new("bands").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
         for text in ["", tr("highest"), tr("half power"), tr("enough")] {
             ui.label(small(text).color(tokens.text_weak));
         }
         ui.end_row();
-        for (name, power) in &all {
-            let Some([frequency, top]) = highest(power) else { continue };
-            let bands = usable(power, present);
-            let half = if *name == tr("without magnets") {
-                Some(study.linear().half_power)
-            } else {
-                half_power(power)
-            };
+        for (index, ((name, pieces), enough)) in all.iter().zip(&enough).enumerate() {
+            let Some(top) = highest(pieces) else { continue };
+            let half = if index == 0 { Some(study.linear().half_power) } else { half_power(&powers(pieces)) };
             ui.label(small(name).color(tokens.text));
-            let peak = ui.label(small(&with_unit(top, "W")).color(tokens.text_strong));
-            peak.on_hover_text(fill("at {hertz} Hz", &[("hertz", &significant(frequency, 5))]));
+            let peak = ui.label(small(&with_unit(top.power, "W")).color(tokens.text_strong));
+            peak.on_hover_text(fill("at {hertz} Hz", &[("hertz", &significant(top.frequency, 5))]));
             let shown = half.map_or("–".to_owned(), |half| hertz(half.to - half.from));
             let label = ui.label(small(&shown).color(tokens.text));
             if let Some(half) = half {
                 label.on_hover_text(interval(&half));
             }
-            let width = total(&bands);
-            let shown = if bands.is_empty() { tr("none").to_owned() } else { hertz(width) };
-            let label = ui.label(small(&shown).color(tokens.text_strong));
+            let bands = &enough.bands;
+            let shown = if bands.is_empty() { tr("none").to_owned() } else { hertz(total(bands)) };
+            let cut = enough.in_words(tokens);
+            let colour = cut.as_ref().map_or(tokens.text_strong, |(_, colour)| *colour);
+            let label = ui.label(small(&shown).color(colour));
             if !bands.is_empty() {
-                label.on_hover_text(bands.iter().map(interval).collect::<Vec<_>>().join("\n"));
+                let said = cut.map(|(text, _)| format!("\n{text}")).unwrap_or_default();
+                label.on_hover_text(list(bands, "\n") + &said);
             }
             ui.end_row();
         }
     });
-    let stable = usable(&all[1].1, present);
-    let text = if stable.is_empty() {
-        fill("Nowhere here does a stable motion give {power}.", &[("power", &with_unit(present, "W"))])
+    let stable = &enough[1];
+    let power = with_unit(present, "W");
+    let text = if stable.bands.is_empty() {
+        fill("Nowhere here does a stable motion give {power}.", &[("power", &power)])
     } else {
-        let list = stable.iter().map(interval).collect::<Vec<_>>().join(", ");
-        fill(
-            "At least {power} over {list} by stable motions.",
-            &[("power", &with_unit(present, "W")), ("list", &list)],
-        )
+        let list = list(&stable.bands, ", ");
+        fill("At least {power} over {list} by stable motions.", &[("power", &power), ("list", &list)])
     };
     ui.add_space(2.0);
     ui.add(egui::Label::new(small(&text).color(tokens.text)).wrap());
+    if let Some((text, colour)) = stable.in_words(tokens) {
+        ui.add(egui::Label::new(small(&text).color(colour)).wrap());
+    }
 }
 
 /// Chooses the power (W) that counts.

@@ -14,8 +14,9 @@ use crate::app::widgets::number::{prefix, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
 use crate::export::Pen;
+use crate::jobs::design::HarvestPoint;
 use crate::jobs::study::Study as _;
-use crate::jobs::study::harvest::{HarvestPoint, HarvestStudy};
+use crate::jobs::study::harvest::HarvestStudy;
 use crate::jobs::study::sweep::Direction;
 
 /// Draws the card.
@@ -132,34 +133,9 @@ fn values(watched: Watched, point: &HarvestPoint) -> [f64; 2] {
     }
 }
 
-/// The linear device as points of a curve.
-pub(super) fn linear_points(study: &HarvestStudy) -> Vec<HarvestPoint> {
-    let units = study.question().scenario.units();
-    let beta = study.question().scenario.parameters.beta;
-    let point = |[frequency, v_rms, power, tip]: &[f64; 4]| {
-        let acceleration = units.acceleration(beta, units.omega(*frequency));
-        let power_per_g2 = if acceleration > 0.0 { power / (acceleration * acceleration) } else { 0.0 };
-        let v_peak = v_rms * std::f64::consts::SQRT_2;
-        HarvestPoint {
-            frequency: *frequency,
-            v_rms: *v_rms,
-            v_peak,
-            power: *power,
-            power_per_g2,
-            tip: (-tip, *tip),
-        }
-    };
-    study.linear().points.iter().map(point).collect()
-}
-
-/// What ended delivers nothing and leaves a gap.
-fn lasting(points: Vec<HarvestPoint>) -> Vec<HarvestPoint> {
-    points.into_iter().filter(|point| point.v_peak > 0.0).collect()
-}
-
 /// Everything that is drawn: its kind, its name, its points.
 fn curves(study: &HarvestStudy) -> Vec<(Series, String, Vec<HarvestPoint>)> {
-    let mut curves = vec![(Series::Linear, tr("without magnets").to_owned(), linear_points(study))];
+    let mut curves = vec![(Series::Linear, tr("without magnets").to_owned(), study.linear_points())];
     for branch in study.branches().and_then(Result::ok).unwrap_or_default() {
         let name = match branch.periods {
             1 => tr("forced motion").to_owned(),
@@ -177,8 +153,8 @@ fn curves(study: &HarvestStudy) -> Vec<(Series, String, Vec<HarvestPoint>)> {
     }
     let from_rest = study.from_rest().iter().filter_map(|start| start.flatten()).map(|(_, point)| point);
     curves.push((Series::FromRest, tr("from rest").to_owned(), from_rest.collect()));
-    curves.push((Series::Down, tr("swept down").to_owned(), lasting(study.swept(Direction::Down))));
-    curves.push((Series::Up, tr("swept up").to_owned(), lasting(study.swept(Direction::Up))));
+    curves.push((Series::Down, tr("swept down").to_owned(), study.swept_pieces(Direction::Down).concat()));
+    curves.push((Series::Up, tr("swept up").to_owned(), study.swept_pieces(Direction::Up).concat()));
     curves
 }
 
@@ -203,7 +179,12 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
             drawn.push((*kind, name, measure.line(points, side)));
             if *kind != Series::Unstable {
                 let demand = |point: &HarvestPoint| (point.v_peak, point.tip);
-                let over = beyond(safety.as_ref(), points, &demand, &place(side));
+                // The linear device has no magnets to touch.
+                let bounds = match (&safety, kind) {
+                    (Some(Safety(bounds)), Series::Linear) => Some(bounds.without_magnets()),
+                    (safety, _) => safety.as_ref().map(|safety| safety.0),
+                };
+                let over = beyond(bounds, points, &demand, &place(side));
                 drawn.push((Series::Beyond, tr("beyond a limit"), over));
             }
         }

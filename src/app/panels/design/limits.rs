@@ -80,7 +80,7 @@ fn checks(context: &Context<'_>, ui: &mut Ui) {
     let Some(harvest) = &operating.reached.harvest else { return };
     let Some(safety) = Safety::of(context.view, context.session) else { return };
     ui.add_space(4.0);
-    for check in safety.limits.checks(&harvest.demand, safety.gap) {
+    for check in safety.checks(&harvest.demand) {
         let (sign, colour) = match check.standing {
             Standing::Within => ("✓", tokens.ok),
             Standing::Marginal => ("±", tokens.warning),

@@ -2,6 +2,7 @@
 
 mod alignment;
 mod bands;
+mod best_load;
 mod force;
 pub(super) mod harvest;
 mod limits;
@@ -36,7 +37,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     ui.add_space(grid::GAP);
     match context.view.design.page {
         Page::Harvest => beside(context, ui, Panel::Harvest, harvest::show, bands::show),
-        Page::Load => beside(context, ui, Panel::Load, load::show, load::cards),
+        Page::Load => beside(context, ui, Panel::Load, load::show, best_load::cards),
         Page::Materials => materials::show(context, ui),
         Page::Trust => trust::show(context, ui),
         Page::Search => beside(context, ui, Panel::DesignMap, search::show, search::cards),

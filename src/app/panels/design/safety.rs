@@ -11,56 +11,50 @@ use crate::app::widgets::number::with_unit;
 use crate::app::widgets::plot_style;
 use crate::export::Pen;
 use crate::export::figure::Anchor;
+use crate::jobs::design::Bounds;
 use crate::model::limits::{Check, LimitKind, Standing};
-use crate::model::{Demand, Limits, Units};
+use crate::model::{Demand, Limits};
 
-/// The limits with what they refer to.
-pub(in crate::app) struct Safety {
-    /// What must be kept.
-    pub limits: Limits,
-    /// Distance of the magnets at rest (beam lengths); none without magnets.
-    pub gap: Option<f64>,
-    units: Units,
-}
+/// The limits of the device in view.
+pub(in crate::app) struct Safety(pub Bounds);
 
 impl Safety {
     /// Of the device in view, when it is one.
     pub(in crate::app) fn of(view: &View, session: &Session) -> Option<Self> {
         let gap = session.boundaries.as_ref()?.gap;
-        Some(Self { limits: bench::limits(view), gap, units: view.scenario.units() })
+        Some(Self(Bounds { limits: bench::limits(view), gap, units: view.scenario.units() }))
     }
 
-    /// Whether a motion keeps them: its largest voltage (V) and its range of the tip (mm).
-    pub(super) fn allows(&self, v_peak: f64, tip: (f64, f64)) -> bool {
-        let beam = 1e3 * self.units.length;
-        let demand = Demand { v_peak, tip: (tip.0 / beam, tip.1 / beam), slope: None };
-        self.limits.allow(&demand, self.gap)
+    /// How a demand stands to each of them.
+    pub(in crate::app) fn checks(&self, demand: &Demand) -> Vec<Check> {
+        self.0.limits.checks(demand, self.0.gap)
     }
 
     /// A number that is another one for other limits, so that a picture knows when it is old.
     pub(in crate::app) fn fingerprint(&self) -> u64 {
-        let Limits { voltage, gap, deflection, .. } = self.limits;
-        let bits = [voltage.map_or(0.0, |(low, _)| low), gap, deflection, self.gap.unwrap_or(0.0)];
+        let Limits { voltage, gap, deflection, .. } = self.0.limits;
+        let bits = [voltage.map_or(0.0, |(low, _)| low), gap, deflection, self.0.gap.unwrap_or(0.0)];
         bits.iter()
             .fold(0, |mixed: u64, value| mixed.rotate_left(17) ^ value.to_bits().wrapping_mul(0x9e37_79b9))
     }
 
     /// What a demand breaks, in words; empty when it keeps all.
     pub(in crate::app) fn broken(&self, demand: &Demand) -> Vec<String> {
-        let checks = self.limits.checks(demand, self.gap);
+        let checks = self.checks(demand);
         checks.iter().filter(|check| check.standing != Standing::Within).map(in_words).collect()
     }
 
     /// Lowest and highest tip displacement (mm) that keep them.
     pub(super) fn tip(&self) -> (f64, f64) {
-        let most = self.limits.deflection;
-        let lowest = self.gap.map_or(most, |gap| most.min(self.limits.gap * gap));
-        (self.units.millimetres(-lowest), self.units.millimetres(most))
+        let Bounds { limits, gap, units } = self.0;
+        let most = limits.deflection;
+        let lowest = gap.map_or(most, |gap| most.min(limits.gap * gap));
+        (units.millimetres(-lowest), units.millimetres(most))
     }
 
     /// Draws horizontal limits of a plot of voltages (V), with their names from x = `left`.
     pub(super) fn voltage_lines(&self, plot: &mut PlotUi<'_>, left: f64, coordinate: &dyn Fn(f64) -> f64) {
-        if let Some((low, high)) = self.limits.voltage {
+        if let Some((low, high)) = self.0.limits.voltage {
             line(plot, [left, coordinate(low)], tr("largest voltage allowed"));
             if high > low {
                 line(plot, [left, coordinate(high)], tr("upper end of the range published"));
@@ -71,9 +65,10 @@ impl Safety {
     /// Draws those of a plot of tip displacements (mm).
     pub(super) fn tip_lines(&self, plot: &mut PlotUi<'_>, left: f64) {
         let (low, high) = self.tip();
-        let closes = self.gap.is_some_and(|gap| self.limits.gap * gap < self.limits.deflection);
+        let Bounds { limits, gap, .. } = self.0;
+        let closes = gap.is_some_and(|gap| limits.gap * gap < limits.deflection);
         let contact =
-            if self.limits.gap >= 1.0 { tr("contact of the magnets") } else { tr("part of the gap allowed") };
+            if limits.gap >= 1.0 { tr("contact of the magnets") } else { tr("part of the gap allowed") };
         line(plot, [left, low], if closes { contact } else { tr("largest deflection allowed") });
         line(plot, [left, high], tr("largest deflection allowed"));
     }
@@ -90,17 +85,17 @@ fn line(plot: &mut PlotUi<'_>, [left, at]: [f64; 2], name: &str) {
 /// Largest voltage (V), and lowest and highest tip displacement (mm).
 pub(super) type Asked = (f64, (f64, f64));
 
-/// Of `points`, those that go beyond the limits, by what `demand` says of each.
+/// Of `points`, those that go beyond the bounds, by what `demand` says of each.
 pub(super) fn beyond<T>(
-    safety: Option<&Safety>,
+    bounds: Option<Bounds>,
     points: &[T],
     demand: &dyn Fn(&T) -> Asked,
     place: &dyn Fn(&T) -> PlotPoint,
 ) -> Vec<PlotPoint> {
-    let Some(safety) = safety else { return Vec::new() };
+    let Some(bounds) = bounds else { return Vec::new() };
     let violates = |point: &&T| {
         let (v_peak, tip) = demand(point);
-        !safety.allows(v_peak, tip)
+        !bounds.allows(v_peak, tip)
     };
     points.iter().filter(violates).map(place).collect()
 }

@@ -112,7 +112,7 @@ fn parts(value: f64, unit: &str) -> (String, String) {
 }
 
 fn gap_in_words(context: &Context<'_>, harvest: &Harvest) -> String {
-    let gap = Safety::of(context.view, context.session).and_then(|safety| safety.gap);
+    let gap = Safety::of(context.view, context.session).and_then(|safety| safety.0.gap);
     gap.map_or(tr("no magnets").to_owned(), |gap| {
         fill(
             "closes {percent} % of the gap",
@@ -127,7 +127,7 @@ fn safe(context: &Context<'_>, ui: &Ui, harvest: &Harvest) -> (&'static str, egu
     let Some(safety) = Safety::of(context.view, context.session) else {
         return ("–", tokens.text_weak, String::new());
     };
-    let checks = safety.limits.checks(&harvest.demand, safety.gap);
+    let checks = safety.checks(&harvest.demand);
     let detail = safety::worst(&checks).map(safety::in_words).unwrap_or_default();
     match safety::standing(&checks) {
         Standing::Within => (tr("safe"), tokens.ok, detail),

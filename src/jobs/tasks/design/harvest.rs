@@ -2,14 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::failed;
+use super::{ChosenLimits, failed};
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::RequestError;
 use crate::jobs::design::band::{half_power, total, usable};
 use crate::jobs::design::linear::LinearCurve;
-use crate::jobs::design::{Interval, Operating, Plant, operating};
+use crate::jobs::design::point::powers;
+use crate::jobs::design::{Bounds, HarvestPoint, Interval, Operating, Plant, operating};
 use crate::jobs::study::complete;
-use crate::jobs::study::harvest::{HarvestPoint, HarvestQuestion, HarvestStudy};
+use crate::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
 use crate::jobs::study::sweep::Direction;
 use crate::model::ModelError;
 use crate::scenario::Scenario;
@@ -22,6 +23,8 @@ pub struct HarvestTask {
     pub frequency: Option<Hertz>,
     /// Power (W) that counts as usable, for the bands.
     pub least: Option<f64>,
+    /// What must be kept in the bands within limits.
+    pub limits: ChosenLimits,
 }
 
 /// Equally spaced frequencies.
@@ -105,6 +108,10 @@ pub struct Band {
     pub usable: Vec<Interval>,
     /// Width of these together (Hz).
     pub total: f64,
+    /// The parts of these where the limits are kept.
+    pub within_limits: Vec<Interval>,
+    /// Width of those together (Hz).
+    pub total_within_limits: f64,
 }
 
 impl HarvestTask {
@@ -115,7 +122,9 @@ impl HarvestTask {
     }
 
     fn curves(&self, scenario: Scenario, frequency: Hertz) -> Result<Curves, RequestError> {
-        let window = frequency.window(&Plant::new(&scenario)?)?;
+        let plant = Plant::new(&scenario)?;
+        let window = frequency.window(&plant)?;
+        let bounds = Bounds::new(&plant, self.limits.complete(&scenario)?)?;
         let dwell = Dwell::default();
         let mut study =
             HarvestStudy::new(HarvestQuestion { scenario, window, count: frequency.count, dwell })?;
@@ -129,17 +138,26 @@ impl HarvestTask {
         let class = |(motion, point)| (super::super::class(motion), point);
         let linear = study.linear().clone();
         let least = self.least.unwrap_or(0.5 * linear.peak[1]);
-        let band = |of, curves: Vec<Vec<[f64; 2]>>| {
+        let band = |of, bounds: Bounds, pieces: &[Vec<HarvestPoint>]| {
+            let curves = powers(pieces);
+            let within_limits = usable(&bounds.powers_within(pieces), least);
             let usable = usable(&curves, least);
-            Band { of, half_power: half_power(&curves), total: total(&usable), usable }
+            Band {
+                of,
+                half_power: half_power(&curves),
+                total: total(&usable),
+                usable,
+                total_within_limits: total(&within_limits),
+                within_limits,
+            }
         };
-        let power = linear.points.iter().map(|point| [point[0], point[2]]).collect();
+        let bare = band("linear", bounds.without_magnets(), &[study.linear_points()]);
         let bands = vec![
-            Band { half_power: Some(linear.half_power), ..band("linear", vec![power]) },
-            band("stable", study.stable_power()),
-            band("from_rest", study.rest_power()),
-            band("up", study.swept_power(Direction::Up)),
-            band("down", study.swept_power(Direction::Down)),
+            Band { half_power: Some(linear.half_power), ..bare },
+            band("stable", bounds, &study.stable_pieces()),
+            band("from_rest", bounds, &study.rest_pieces()),
+            band("up", bounds, &study.swept_pieces(Direction::Up)),
+            band("down", bounds, &study.swept_pieces(Direction::Down)),
         ];
         Ok(Curves {
             branches: branches.iter().map(branch).collect(),

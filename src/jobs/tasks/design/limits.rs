@@ -5,14 +5,14 @@ use serde::{Deserialize, Serialize};
 use crate::jobs::RequestError;
 use crate::jobs::design::Plant;
 use crate::jobs::design::harvest::lasting;
-use crate::model::Limits;
 use crate::model::limits::{Check, Demand, Standing};
+use crate::model::{Limits, ModelError};
 use crate::scenario::Scenario;
 
-/// The limits; those not given are the device's own.
+/// Chosen limits; those not given are the device's own.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct LimitsTask {
+pub struct ChosenLimits {
     /// Lower and upper end of the largest voltage (V).
     pub voltage: Option<(f64, f64)>,
     /// Part of the gap that the tip may close.
@@ -36,21 +36,24 @@ pub struct LimitsAnswer {
     pub safe: bool,
 }
 
-impl LimitsTask {
+impl ChosenLimits {
     /// The limits for the device of `scenario`.
-    fn limits(&self, scenario: &Scenario) -> Limits {
+    ///
+    /// # Errors
+    /// As [`Limits::validate`].
+    pub(super) fn complete(&self, scenario: &Scenario) -> Result<Limits, ModelError> {
         let own = Limits::of(&scenario.base());
-        Limits {
+        let limits = Limits {
             voltage: self.voltage.or(own.voltage),
             gap: self.gap.unwrap_or(own.gap),
             deflection: self.deflection.unwrap_or(own.deflection),
             slope: self.slope.unwrap_or(own.slope),
-        }
+        };
+        limits.validate().map(|()| limits)
     }
 
     pub(super) fn answer(&self, scenario: &Scenario) -> Result<LimitsAnswer, RequestError> {
-        let limits = self.limits(scenario);
-        limits.validate()?;
+        let limits = self.complete(scenario)?;
         let plant = Plant::new(scenario)?;
         let (system, initial) = plant.scenario.validate()?;
         let reached = lasting(&plant, &system, &initial)?;

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::failed;
 use super::harvest::Hertz;
+use super::{ChosenLimits, failed};
 use crate::jobs::RequestError;
-use crate::jobs::design::Plant;
 use crate::jobs::design::load::{BestFrequency, LoadPoint, best};
+use crate::jobs::design::{Bounds, Plant};
 use crate::jobs::study::complete;
 use crate::jobs::study::load::{LoadQuestion, LoadStudy};
 use crate::scenario::Scenario;
@@ -23,11 +23,13 @@ pub struct LoadTask {
     pub per_decade: usize,
     /// Frequencies (Hz) among which the best one is looked for under each load; their number plays no role.
     pub window: Option<Hertz>,
+    /// What must be kept.
+    pub limits: ChosenLimits,
 }
 
 impl Default for LoadTask {
     fn default() -> Self {
-        Self { from: None, to: None, per_decade: 10, window: None }
+        Self { from: None, to: None, per_decade: 10, window: None, limits: ChosenLimits::default() }
     }
 }
 
@@ -44,6 +46,8 @@ pub struct LoadAnswer {
     pub reached: Vec<Option<LoadPoint>>,
     /// The best of these that lasts.
     pub reached_best: Option<LoadPoint>,
+    /// The best of these that keeps the limits.
+    pub reached_best_within_limits: Option<LoadPoint>,
     /// The best frequency for each load, where a window was given.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub best_frequency: Vec<Option<BestFrequency>>,
@@ -56,15 +60,21 @@ impl LoadTask {
         let about = LoadQuestion::about(scenario, window)?;
         let low = self.from.unwrap_or(about.range.0);
         let range = (low, self.to.unwrap_or(if self.from.is_some() { 1e6 * low } else { about.range.1 }));
-        let mut study = LoadStudy::new(LoadQuestion { range, per_decade: self.per_decade, ..about })?;
+        let limits = self.limits.complete(&about.scenario)?;
+        let bounds = Bounds::new(&plant, limits)?;
+        let mut study = LoadStudy::new(LoadQuestion { range, per_decade: self.per_decade, limits, ..about })?;
         complete(&mut study);
         failed(study.failure())?;
+        let reached = || study.reached().iter().flatten().copied();
         Ok(LoadAnswer {
             linear: study.linear().to_vec(),
             linear_best: study.linear_best(),
             forced: study.forced().unwrap_or_default().to_vec(),
             reached: study.reached().to_vec(),
-            reached_best: best(study.reached().iter().flatten().copied()),
+            reached_best: best(reached()),
+            reached_best_within_limits: best(
+                reached().filter(|point| bounds.allows(point.v_peak, point.tip)),
+            ),
             best_frequency: study.best_frequencies().to_vec(),
         })
     }

@@ -18,7 +18,7 @@ mod trust;
 
 pub use find::{FindAnswer, FindTask};
 pub use harvest::{HarvestAnswer, HarvestTask};
-pub use limits::{LimitsAnswer, LimitsTask};
+pub use limits::{ChosenLimits, LimitsAnswer};
 pub use load::{LoadAnswer, LoadTask};
 pub use materials::{MaterialsAnswer, MaterialsTask};
 pub use trust::{TrustAnswer, TrustTask};
@@ -99,7 +99,7 @@ pub enum Task {
     /// The ceramics side by side.
     Materials(MaterialsTask),
     /// Its limits.
-    Limits(LimitsTask),
+    Limits(ChosenLimits),
     /// How far the model is to be trusted.
     Trust(TrustTask),
     /// A better design.

@@ -1,0 +1,138 @@
+//! The best load, at the frequency in view and at the best one, and what of it keeps the limits.
+
+use egui::{RichText, Ui};
+
+use super::load::{best_frequencies, use_load};
+use super::safety::Safety;
+use crate::app::panels::computing;
+use crate::app::panels::{Context, grid};
+use crate::app::text::{fill, tr};
+use crate::app::theme;
+use crate::app::widgets::Card;
+use crate::app::widgets::number::{significant, with_unit};
+use crate::jobs::design::Bounds;
+use crate::jobs::design::load::{BestFrequency, LoadPoint, Peak, best};
+use crate::jobs::study::Study as _;
+use crate::jobs::study::load::LoadStudy;
+
+/// The best of the motions reached, of all and of those that keep the limits.
+#[derive(Clone, Copy)]
+pub(super) struct Best {
+    of_all: LoadPoint,
+    within_limits: Option<LoadPoint>,
+}
+
+impl Best {
+    /// None when no motion lasts.
+    pub(super) fn of(study: &LoadStudy, bounds: Option<Bounds>) -> Option<Self> {
+        let points = study.reached().iter().flatten().copied();
+        let keeps = |point: &LoadPoint| bounds.is_none_or(|bounds| bounds.allows(point.v_peak, point.tip));
+        Some(Self { of_all: best(points.clone())?, within_limits: best(points.filter(keeps)) })
+    }
+
+    /// The one to recommend.
+    pub(super) fn to_use(self) -> LoadPoint {
+        self.within_limits.unwrap_or(self.of_all)
+    }
+}
+
+/// Draws the cards beside the curves over the load.
+pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
+    Card::new(tr("Best load")).hugging().show(ui, |ui| brief(context, ui));
+    ui.add_space(grid::GAP);
+    Card::new(tr("Best load and frequency")).hugging().show(ui, |ui| both(context, ui));
+    ui.add_space(grid::GAP);
+    Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
+}
+
+/// The best load in a few words, with a button to take it.
+pub(super) fn brief(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(study) = context.studies.bench.load.study() else { return };
+    let [resistance, power] = study.linear_best();
+    line(ui, &fill("without magnets: {what}", &[("what", &gives(resistance, power))]));
+    let bounds = Safety::of(context.view, context.session).map(|safety| safety.0);
+    match Best::of(study, bounds).filter(|_| study.finished()) {
+        Some(best) => {
+            let of = |point: &LoadPoint| (gives(point.resistance, point.power), point.resistance);
+            let all = of(&best.of_all);
+            let within = best.within_limits.as_ref().map(of);
+            line(ui, &fill("the motion reached: {what}", &[("what", &all.0)]));
+            safe_part(ui, &all, within.as_ref());
+            let load = best.to_use().resistance;
+            if ui.button(fill("Use {load}", &[("load", &with_unit(load, "Ω"))])).clicked() {
+                use_load(context, load);
+            }
+        }
+        None => line(
+            ui,
+            &fill(
+                "the motion reached: computing {percent} %",
+                &[("percent", &format!("{:.0}", 100.0 * study.progress()))],
+            ),
+        ),
+    }
+}
+
+/// What of the best keeps the limits, where that is another one, or none.
+fn safe_part<T: PartialEq>(ui: &mut Ui, all: &(String, T), within: Option<&(String, T)>) {
+    let tokens = theme::tokens(ui);
+    let (text, colour) = match within {
+        Some(within) if within.1 == all.1 => return,
+        Some((what, _)) => (fill("within the limits: {what}", &[("what", what)]), tokens.ok),
+        None => (tr("beyond a limit, as is every other").to_owned(), tokens.danger),
+    };
+    ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
+}
+
+fn gives(resistance: f64, power: f64) -> String {
+    fill("{load} gives {power}", &[("load", &with_unit(resistance, "Ω")), ("power", &with_unit(power, "W"))])
+}
+
+fn line(ui: &mut Ui, text: &str) {
+    let colour = theme::tokens(ui).text;
+    ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
+}
+
+/// The best of all loads at the best of all frequencies.
+fn both(context: &mut Context<'_>, ui: &mut Ui) {
+    let best = best_frequencies(context);
+    let unfinished = context.studies.bench.best.study().filter(|table| !table.finished());
+    if let Some(table) = unfinished {
+        line(ui, &computing(table.progress()));
+    }
+    let finished = unfinished.is_none();
+    let place = |frequency: f64, resistance: f64, power: f64| {
+        fill(
+            "{what} at {hertz} Hz",
+            &[("what", &gives(resistance, power)), ("hertz", &significant(frequency, 4))],
+        )
+    };
+    let linear = best.iter().max_by(|a, b| a.linear[1].total_cmp(&b.linear[1]));
+    if let Some(best) = linear {
+        let what = place(best.linear[0], best.resistance, best.linear[1]);
+        line(ui, &fill("without magnets: {what}", &[("what", &what)]));
+    }
+    let highest = |pick: fn(&BestFrequency) -> Option<Peak>| {
+        let peaks = best.iter().filter_map(|best| Some((best.resistance, pick(best)?)));
+        peaks.max_by(|a, b| a.1.power.total_cmp(&b.1.power))
+    };
+    if let Some(all) = highest(|best| best.stable) {
+        let within = highest(|best| best.within_limits);
+        let described = |(resistance, peak): (f64, Peak)| {
+            let text = place(peak.frequency, resistance, peak.power);
+            let text = fill("{text}, period {periods}", &[("text", &text), ("periods", &peak.periods)]);
+            (text, (resistance, peak))
+        };
+        let (all, within) = (described(all), within.map(described));
+        line(ui, &fill("stable motions: {what}", &[("what", &all.0)]));
+        safe_part(ui, &all, within.as_ref());
+        let (_, (resistance, peak)) = within.unwrap_or(all);
+        // Half of a search may be far from the best.
+        if ui.add_enabled(finished, egui::Button::new(tr("Use both"))).clicked() {
+            super::harvest::go_to(context, peak.frequency);
+            use_load(context, resistance);
+        }
+        line(ui, tr("A start at rest may lead to another motion."));
+    }
+    line(ui, tr("Within the window of frequencies of the page Harvest, at the base's present amplitude."));
+}

@@ -1,0 +1,53 @@
+//! Bands and loads that keep the limits.
+
+use harvester_lab::dynamics::sweep::Dwell;
+use harvester_lab::jobs::design::band::usable;
+use harvester_lab::jobs::design::{Bounds, Plant, operating};
+use harvester_lab::jobs::solve;
+use harvester_lab::jobs::study::complete;
+use harvester_lab::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
+use harvester_lab::model::Limits;
+
+use crate::{TestResult, figure_9};
+
+#[test]
+fn a_band_ends_where_the_motion_itself_meets_the_limit() -> TestResult {
+    let (volts, mut scenario) = (20.0, figure_9());
+    let plant = Plant::new(&scenario)?;
+    let limits = Limits { voltage: Some((volts, volts)), ..Limits::default() };
+    let bounds = Bounds::new(&plant, limits)?;
+    let dwell = Dwell { discarded: 100, kept: 8 };
+    let question = HarvestQuestion { scenario: scenario.clone(), window: (7.9, 8.7), count: 2, dwell };
+    let mut study = HarvestStudy::new(question)?;
+    complete(&mut study);
+    // The doubled motion alone gives more than 5 µW; it needs more than 20 V below this frequency.
+    let found = usable(&bounds.powers_within(&study.stable_pieces()), 5e-6);
+    assert_eq!(found.len(), 1, "{found:?}");
+    scenario.parameters.omega = plant.units.omega(found[0].from);
+    let there = operating(&scenario)?.reached.harvest.ok_or("it lasts")?;
+    assert!((there.demand.v_peak / volts - 1.0).abs() < 1e-3, "{there:?}");
+    Ok(())
+}
+
+#[test]
+fn requests_tell_what_keeps_the_limits() -> TestResult {
+    let device = r#""parameters":{"alpha":1e-4,"beta":0.01,"omega":8.0969}"#;
+    let limits = r#""limits":{"voltage":[20,20]}"#;
+    let harvest = solve(&format!(
+        r#"{{"task":"harvest",{device},"frequency":{{"from":2.8,"to":3.0,"count":9}},"least":5e-6,{limits}}}"#
+    ))?;
+    let harvest: serde_json::Value = serde_json::from_str(&harvest)?;
+    for band in harvest["curves"]["bands"].as_array().ok_or("bands")? {
+        let (all, safe) = (band["total"].as_f64(), band["total_within_limits"].as_f64());
+        assert!(safe <= all && (band["of"] == "linear" || safe < all), "{band}");
+    }
+    let load = solve(&format!(r#"{{"task":"load",{device},"per_decade":2,{limits}}}"#))?;
+    let load: serde_json::Value = serde_json::from_str(&load)?;
+    let (best, safe) = (&load["reached_best"], &load["reached_best_within_limits"]);
+    assert!(best["v_peak"].as_f64() > Some(20.0) && safe["v_peak"].as_f64() <= Some(20.0), "{load}");
+    assert!(safe["power"].as_f64() < best["power"].as_f64());
+    let bad = solve(&format!(r#"{{"task":"load",{device},"limits":{{"gap":1.5}}}}"#));
+    let said = bad.err().ok_or("refused")?;
+    assert!(said.contains("limits.gap") && said.contains("1.5"), "{said}");
+    Ok(())
+}
