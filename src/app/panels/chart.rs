@@ -15,7 +15,7 @@ use crate::app::view::{Layer, Panel};
 use crate::app::widgets::number::{self, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{
-    HATCH, Series, chips, colour_bar, draw_cells, on_hatching, raster, recorder, swatches,
+    Filling, Hatched, Series, chips, colour_bar, draw_raster, hatched, raster, recorder, swatches,
 };
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
@@ -71,7 +71,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             };
             ui.horizontal(|ui| {
                 colour_bar(ui, "0", &format!("{} {unit}", significant(top, 3)), &colours::sequential);
-                swatches(ui, &[(tokens.danger, tr("hatched: beyond a limit"))]);
+                swatches(ui, &[(Filling::Hatching, tr("beyond a limit"))]);
             });
         }
     }
@@ -79,19 +79,19 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn multiplier_legend(ui: &mut Ui, tokens: &Tokens) {
-    let kind = |kind| colours::instability(kind, tokens);
+    let kind = |kind| Filling::Plain(colours::instability(kind, tokens));
     let entries = [
-        (colours::multiplier(Some((0.999, 0.0)), tokens), tr("stable")),
+        (Filling::Plain(colours::multiplier(Some((0.999, 0.0)), tokens)), tr("stable")),
         (kind(Instability::PeriodDoubling), tr("period doubling")),
         (kind(Instability::NeimarkSacker), tr("torus")),
         (kind(Instability::Fold), tr("fold")),
-        (colours::multiplier(None, tokens), tr("no forced motion")),
+        (Filling::Plain(colours::multiplier(None, tokens)), tr("no forced motion")),
     ];
     swatches(ui, &entries);
 }
 
 fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
-    let colour = |motion| colours::motion(motion, tokens);
+    let colour = |motion| Filling::Plain(colours::motion(motion, tokens));
     let entries = [
         (colour(Motion::Periodic { periods: 1 }), tr("period 1")),
         (colour(Motion::Periodic { periods: 2 }), "2"),
@@ -99,7 +99,7 @@ fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
         (colour(Motion::Quasiperiodic), tr("torus")),
         (colour(Motion::Chaotic), tr("chaotic")),
         (colour(Motion::Escape { time: 0.0 }), tr("escape or contact")),
-        (tokens.danger, tr("hatched: beyond a limit")),
+        (Filling::Hatching, tr("beyond a limit")),
     ];
     swatches(ui, &entries);
 }
@@ -116,11 +116,15 @@ fn value(cell: &Cell, layer: Layer) -> f64 {
     if layer == Layer::Power { cell.power } else { cell.v_rms }
 }
 
+/// Cells of one pixel, or such that can be hatched.
+enum Cells {
+    Plain(TextureHandle),
+    Hatched(Hatched),
+}
+
 /// What is drawn under the curves.
 struct Picture {
-    texture: TextureHandle,
-    /// Pixels a side of a cell.
-    side: usize,
+    cells: Cells,
     omega: (f64, f64),
     beta: (f64, f64),
     /// Whether any of it answers the newest question.
@@ -140,7 +144,12 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
         let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
         let texture = raster(ui, Id::unique("multiplier chart"), revision, question.size, &paint)?;
         let known = chart.version() > 0;
-        return Some(Picture { texture, side: 1, omega: question.omega, beta: question.beta, known });
+        return Some(Picture {
+            cells: Cells::Plain(texture),
+            omega: question.omega,
+            beta: question.beta,
+            known,
+        });
     }
     let chart = context.studies.motions.study()?;
     let question = chart.question();
@@ -159,22 +168,13 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
         _ => false,
     };
     let paint = |column: usize, row: usize| {
-        let cell = chart.shown(column / HATCH, row / HATCH)?;
-        let hatched = on_hatching(column, row) && cell.as_ref().is_some_and(unsafe_in);
-        let colour = cell.map_or(tokens.inset, colour);
-        Some(if hatched { colour.lerp_to_gamma(tokens.danger, 0.9) } else { colour })
+        let cell = chart.shown(column, row)?;
+        Some((cell.map_or(tokens.inset, colour), cell.as_ref().is_some_and(unsafe_in)))
     };
     let limits = safety.as_ref().map_or(0, Safety::fingerprint);
     let revision = revision(chart.version(), context.studies.motions.generation()) ^ limits;
-    let (columns, rows) = question.size;
-    let texture = raster(ui, Id::unique("motion chart"), revision, (HATCH * columns, HATCH * rows), &paint)?;
-    Some(Picture {
-        texture,
-        side: HATCH,
-        omega: question.x.1,
-        beta: question.y.1,
-        known: chart.version() > 0,
-    })
+    let cells = Cells::Hatched(hatched(ui, Id::unique("motion chart"), revision, question.size, &paint)?);
+    Some(Picture { cells, omega: question.x.1, beta: question.y.1, known: chart.version() > 0 })
 }
 
 /// Notes the values behind the picture for files.
@@ -231,8 +231,12 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         .allow_double_click_reset(false)
         .show(ui, |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
-            if let Some(Picture { texture, side, omega, beta, known }) = &picture {
-                draw_cells(plot, texture, *side, *omega, *beta, if *known { 1.0 } else { 0.5 });
+            if let Some(Picture { cells, omega, beta, known }) = &picture {
+                let opacity = if *known { 1.0 } else { 0.5 };
+                match cells {
+                    Cells::Plain(texture) => draw_raster(plot, texture, *omega, *beta, opacity),
+                    Cells::Hatched(picture) => picture.draw(plot, *omega, *beta, opacity),
+                }
                 record(context, plot, [*omega, *beta]);
             }
             for tongue in &boundaries.tongues {

@@ -56,14 +56,6 @@ pub fn raster(
     Some(texture)
 }
 
-/// Pixels a side of a cell that can be hatched.
-pub const HATCH: usize = 4;
-
-/// Whether a pixel of a hatched cell lies on a line of the hatching.
-pub fn on_hatching(column: usize, row: usize) -> bool {
-    (column + row).is_multiple_of(HATCH)
-}
-
 /// Draws a picture whose outer cells have their middles at the ends of the ranges `x` and `y`; a cell is a pixel.
 pub fn draw_raster(
     plot: &mut PlotUi<'_>,
@@ -72,19 +64,19 @@ pub fn draw_raster(
     y: (f64, f64),
     opacity: f32,
 ) {
-    draw_cells(plot, picture, 1, x, y, opacity);
+    let [columns, rows] = picture.size();
+    draw_cells(plot, picture, (columns, rows), x, y, opacity);
 }
 
-/// The same with cells of `side` times `side` pixels.
+/// The same with so many cells across and up, each of several pixels.
 pub fn draw_cells(
     plot: &mut PlotUi<'_>,
     picture: &TextureHandle,
-    side: usize,
+    (columns, rows): (usize, usize),
     x: (f64, f64),
     y: (f64, f64),
     opacity: f32,
 ) {
-    let [columns, rows] = picture.size().map(|pixels| pixels / side);
     let width = (x.1 - x.0) * columns as f64 / (columns as f64 - 1.0).max(1.0);
     let height = (y.1 - y.0) * rows as f64 / (rows as f64 - 1.0).max(1.0);
     let middle = PlotPoint::new(0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1));

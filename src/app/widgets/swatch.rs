@@ -1,6 +1,6 @@
 //! Legends of charts: what a colour stands for.
 
-use egui::{Color32, Mesh, Response, Sense, Shape, Ui, WidgetInfo, pos2, vec2};
+use egui::{Color32, Mesh, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use super::recorder;
 use crate::app::text::fill;
@@ -9,18 +9,29 @@ use crate::export::figure::Key;
 
 const SIDE: f32 = 12.0;
 
-/// Coloured squares with their meaning; the row breaks where it is too narrow.
-pub fn swatches(ui: &mut Ui, entries: &[(Color32, &str)]) {
+/// What a square of a legend is filled with.
+#[derive(Clone, Copy)]
+pub enum Filling {
+    /// A colour.
+    Plain(Color32),
+    /// The hatching of what is beyond a limit.
+    Hatching,
+}
+
+/// Filled squares with their meaning; the row breaks where it is too narrow.
+pub fn swatches(ui: &mut Ui, entries: &[(Filling, &str)]) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(12.0, 0.0);
-        for (colour, meaning) in entries {
-            recorder::key(ui.ctx(), &mut || Key::Swatch(recorder::rgba(*colour), (*meaning).to_owned()));
-            swatch(ui, *colour, meaning);
+        let danger = theme::tokens(ui).danger;
+        for (filling, meaning) in entries {
+            let colour = if let Filling::Plain(colour) = filling { *colour } else { danger };
+            recorder::key(ui.ctx(), &mut || Key::Swatch(recorder::rgba(colour), (*meaning).to_owned()));
+            swatch(ui, *filling, meaning);
         }
     });
 }
 
-fn swatch(ui: &mut Ui, colour: Color32, meaning: &str) -> Response {
+fn swatch(ui: &mut Ui, filling: Filling, meaning: &str) -> Response {
     let tokens = theme::tokens(ui);
     let font = fonts::regular(theme::size::SMALL);
     let galley = ui.painter().layout_no_wrap(meaning.to_owned(), font, tokens.text_weak);
@@ -28,12 +39,26 @@ fn swatch(ui: &mut Ui, colour: Color32, meaning: &str) -> Response {
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, meaning));
-    let square =
-        egui::Rect::from_center_size(pos2(rect.left() + 0.5 * SIDE, rect.center().y), vec2(SIDE, SIDE));
-    ui.painter().rect_filled(square, 3, colour);
+    let square = Rect::from_center_size(pos2(rect.left() + 0.5 * SIDE, rect.center().y), vec2(SIDE, SIDE));
+    match filling {
+        Filling::Plain(colour) => {
+            ui.painter().rect_filled(square, 3, colour);
+        }
+        Filling::Hatching => hatch(ui, square),
+    }
     let at = pos2(rect.left() + SIDE + 6.0, rect.center().y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.text_weak);
     response
+}
+
+fn hatch(ui: &Ui, square: Rect) {
+    let stroke = Stroke::new(2.0, theme::tokens(ui).danger);
+    let painter = ui.painter().with_clip_rect(square.intersect(ui.clip_rect()));
+    for across in [-0.5, 0.0, 0.5] {
+        let middle = square.center() + vec2(across * SIDE, across * SIDE);
+        painter.line_segment([middle + vec2(-SIDE, SIDE), middle + vec2(SIDE, -SIDE)], stroke);
+    }
+    ui.painter().rect_stroke(square, 1, Stroke::new(1.0, stroke.color), StrokeKind::Inside);
 }
 
 /// A bar of the colours from 0 to 1 between the texts for both ends.
@@ -84,7 +109,7 @@ pub fn attractor_row(ui: &mut Ui, colour: Color32, name: &str, number: &str) -> 
         ui.painter().rect_filled(rect, theme::radius::CONTROL, tokens.hover);
     }
     let middle = rect.center().y;
-    let square = egui::Rect::from_center_size(pos2(rect.left() + 10.0, middle), vec2(SIDE, SIDE));
+    let square = Rect::from_center_size(pos2(rect.left() + 10.0, middle), vec2(SIDE, SIDE));
     ui.painter().rect_filled(square, 3, colour);
     let font = fonts::regular(theme::size::SMALL);
     let number = ui.painter().text(

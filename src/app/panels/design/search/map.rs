@@ -11,7 +11,7 @@ use crate::app::view::Panel;
 use crate::app::view::design::Aim;
 use crate::app::widgets::number::{self, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{HATCH, chips, colour_bar, draw_cells, on_hatching, raster, recorder, swatches};
+use crate::app::widgets::{Filling, chips, colour_bar, hatched, recorder, swatches};
 use crate::app::{bench, colours, theme};
 use crate::jobs::design::find::{Evaluation, Objective};
 use crate::jobs::study::Study as _;
@@ -67,7 +67,10 @@ fn header(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     });
     swatches(
         ui,
-        &[(tokens.danger, tr("hatched: beyond a limit")), (tokens.track, tr("no motion, no device"))],
+        &[
+            (Filling::Hatching, tr("beyond a limit")),
+            (Filling::Plain(tokens.track), tr("no motion, no device")),
+        ],
     );
 }
 
@@ -92,21 +95,19 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let search = context.view.design.search;
     let (low, high) = extremes(map);
     let inverted = matches!(map.question().objective, Objective::Threshold(_));
-    let colour = |cell: &Evaluation, hatched: bool| -> Color32 {
+    let colour = |cell: &Evaluation| -> Color32 {
         let Some(value) = cell.value else { return tokens.track };
         let share =
             if inverted { (high - value) / (high - low).max(1e-300) } else { value / high.max(1e-300) };
-        let colour = colours::sequential(share);
-        if hatched { colour.lerp_to_gamma(tokens.danger, 0.9) } else { colour }
+        colours::sequential(share)
     };
     let paint = |column: usize, row: usize| {
-        let cell = map.shown((column / HATCH, row / HATCH))?;
-        Some(colour(cell, cell.violation > 0.0 && on_hatching(column, row)))
+        let cell = map.shown((column, row))?;
+        Some((colour(cell), cell.value.is_some() && cell.violation > 0.0))
     };
     let generation = context.studies.bench.map.generation();
     let revision = map.version() ^ (generation << 32) ^ tokens.number() << 62;
-    let (columns, rows) = map.size();
-    let picture = raster(ui, Id::unique("design map"), revision, (HATCH * columns, HATCH * rows), &paint);
+    let picture = hatched(ui, Id::unique("design map"), revision, map.size(), &paint);
     let variables = &map.question().variables;
     let sides = search.sides.map(|side| side.dimension);
     let factors = sides.map(|dimension| device::words(dimension).3);
@@ -126,7 +127,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
         .show(ui, |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
             if let Some(picture) = &picture {
-                draw_cells(plot, picture, HATCH, x, y, if map.version() == 0 { 0.4 } else { 1.0 });
+                picture.draw(plot, x, y, if map.version() == 0 { 0.4 } else { 1.0 });
                 let value = |column, row| map.cell((column, row))?.value.map(number::exact);
                 recorder::cells(plot, mapped(search.aim), map.size(), [x, y], &value);
             }
