@@ -4,6 +4,7 @@ use egui::{Color32, Id, RichText, Ui};
 use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
+use crate::app::colours;
 use crate::app::panels::computing;
 use crate::app::text::{fill, motion_in_words, tr};
 use crate::app::theme::{self, Tokens};
@@ -44,14 +45,28 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     });
 }
 
-/// The colour of an attractor: by what it is where that has a colour of its own, else by the order of its finding.
-fn colour(attractor: &Attractor, tokens: &Tokens) -> Color32 {
-    let others = [tokens.numeric, tokens.warning, tokens.ok, tokens.exact, tokens.poincare];
-    match attractor.cell.motion {
-        Motion::Escape { .. } | Motion::Contact { .. } => tokens.track,
-        Motion::Undecided { .. } => tokens.ghost,
-        _ => others[attractor.number % others.len()],
+/// The colours of attractors: that of its class, as in the other charts, for the first found of each; the others of a
+/// class take one that is left.
+fn colours_of(attractors: &[Attractor], tokens: &Tokens) -> Vec<Color32> {
+    let left = [tokens.numeric, tokens.warning, tokens.ok, tokens.exact, tokens.poincare];
+    let left = left.map(|colour| tokens.inset.lerp_to_gamma(colour, 0.85));
+    let mut found: Vec<usize> = (0..attractors.len()).collect();
+    found.sort_by_key(|index| attractors[*index].number);
+    let mut colours = vec![tokens.track; attractors.len()];
+    let mut taken: Vec<Color32> = Vec::new();
+    for index in found {
+        let motion = attractors[index].cell.motion;
+        let wanted = colours::motion(motion, tokens);
+        if matches!(motion, Motion::Escape { .. } | Motion::Contact { .. } | Motion::Undecided { .. }) {
+            colours[index] = wanted;
+            continue;
+        }
+        let mut choices = std::iter::once(wanted).chain(left);
+        let colour = choices.find(|colour| !taken.contains(colour)).unwrap_or(wanted);
+        taken.push(colour);
+        colours[index] = colour;
     }
+    colours
 }
 
 /// What it is, without what differs from start to start.
@@ -68,10 +83,11 @@ fn name(attractor: &Attractor) -> String {
 fn list(context: &mut Context<'_>, ui: &mut Ui, attractors: &[Attractor]) {
     let tokens = theme::tokens(ui);
     ui.label(RichText::new(tr("share of the starts")).small().color(tokens.text_weak));
-    for attractor in attractors.iter().take(LISTED) {
+    let colours = colours_of(attractors, tokens);
+    for (attractor, colour) in attractors.iter().zip(colours).take(LISTED) {
         let share = format!("{} %", significant(100.0 * attractor.fraction, 3));
         let name = name(attractor);
-        if attractor_row(ui, colour(attractor, tokens), &name, &share).clicked() {
+        if attractor_row(ui, colour, &name, &share).clicked() {
             let start = attractor.start.clone();
             context.edit(|scenario| scenario.initial = Some(start));
         }
@@ -86,10 +102,10 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
     let question = basin.question();
     let lane = context.studies.basin.generation();
     let revision = basin.chart().version() ^ (lane << 32) ^ tokens.number() << 62;
+    let colours = colours_of(attractors, tokens);
     let picture = raster(ui, Id::unique("basins"), revision, question.size, &|column, row| {
         let cell = basin.shown(column, row)?;
-        let attractor = cell.and_then(|index| attractors.get(index));
-        Some(attractor.map_or(tokens.inset, |attractor| colour(attractor, tokens).gamma_multiply(0.8)))
+        Some(cell.and_then(|index| colours.get(index)).copied().unwrap_or(tokens.inset))
     });
     let (x, y) = (Axis::new(tr("start"), "q₁"), Axis::new("", "dq₁/dt"));
     let start = start(&context.view.scenario);
@@ -138,4 +154,29 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
 fn start(scenario: &Scenario) -> Vec<f64> {
     let dimension = crate::model::state_dimension(scenario.model.modes);
     scenario.initial.clone().filter(|state| state.len() == dimension).unwrap_or_else(|| vec![0.0; dimension])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::motion::Cell;
+
+    #[test]
+    fn a_class_has_its_colour_of_the_charts_and_two_of_a_class_differ() {
+        let tokens = theme::tokens_in(&egui::Context::default());
+        let of = |number: usize, motion: Motion| {
+            let cell = Cell { motion, v_rms: 1.0, power: 1.0, tip: (-1.0, 1.0), v_peak: 1.0 };
+            Attractor { cell, start: vec![0.0; 5], number, cells: 1, fraction: 0.2 }
+        };
+        let (one, two) = (Motion::Periodic { periods: 1 }, Motion::Periodic { periods: 2 });
+        let ended = [Motion::Escape { time: 1.0 }, Motion::Contact { time: 1.0 }];
+        let motions = [two, one, one, ended[0], ended[1], Motion::Chaotic];
+        let all: Vec<Attractor> =
+            motions.into_iter().enumerate().map(|(i, motion)| of(5 - i, motion)).collect();
+        let colours = colours_of(&all, tokens);
+        for index in [0, 2, 3, 4, 5] {
+            assert_eq!(colours[index], colours::motion(motions[index], tokens), "{index}");
+        }
+        assert_eq!(colours.iter().filter(|colour| **colour == colours[1]).count(), 1);
+    }
 }
