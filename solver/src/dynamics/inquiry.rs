@@ -231,6 +231,7 @@ impl Inquiry {
                 .map(|(forced, orbit)| ForcedSummary::new(forced, orbit)),
             exponent: *exponent,
             v_rms: reached.measures.map(|measures| measures.v_rms),
+            v_peak: reached.measures.map(|measures| measures.v_peak),
             power: reached.measures.map(|measures| measures.power),
             tip_over_gap: reached.measures.map(|measures| (measures.tip_min / gap, measures.tip_max / gap)),
             peaks,

@@ -209,6 +209,8 @@ pub struct Verdict {
     pub exponent: Option<Exponent>,
     /// Root mean square of the voltage (V).
     pub v_rms: Option<f64>,
+    /// Largest |v| (V).
+    pub v_peak: Option<f64>,
     /// Mean power kappa v^2 in the load (dimensionless).
     pub power: Option<f64>,
     /// Lowest and highest tip displacement over the gap s0 (dimensionless); contact is at -1.

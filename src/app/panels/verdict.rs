@@ -9,7 +9,7 @@ use crate::app::reading::{Reading, Tone};
 use crate::app::session::{Shown, Status};
 use crate::app::text::{fill, reworded};
 use crate::app::{fonts, theme};
-use crate::dynamics::Outcome;
+use crate::dynamics::{Outcome, Verdict};
 use crate::model::Demand;
 
 /// Between texts of a line: a line may end after the dot.
@@ -51,7 +51,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         (_, Tone::Notable) => tokens.warning,
         (_, Tone::Plain) => tokens.ok,
     };
-    let broken = broken(context, shown);
+    let broken = broken(context, shown, verdict);
     let frame = egui::Frame::new()
         .fill(tokens.card)
         .stroke(tokens.edge())
@@ -91,14 +91,18 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     ui.painter().rect_filled(stripe, rounding, colour);
 }
 
-/// The limits of the Design tab that the motion in view breaks.
-fn broken(context: &Context<'_>, shown: &Shown) -> Vec<String> {
+/// The limits of the Design tab that the motion in view breaks: that of the verdict, as the facts beside it, else the run.
+fn broken(context: &Context<'_>, shown: &Shown, verdict: Option<&Verdict>) -> Vec<String> {
     let lasts = shown.run.outcome() == Outcome::Completed;
     let summary = shown.run.summary.as_ref().filter(|_| lasts);
-    let demand = summary.map(|summary| Demand {
-        v_peak: summary.v_peak,
-        tip: (summary.tip_min, summary.tip_max),
-        slope: None,
+    let gap = shown.run.system.equilibrium.gap;
+    let demand = summary.map(|summary| {
+        let (v_peak, tip) = verdict
+            .and_then(|verdict| Some((verdict.v_peak?, verdict.tip_over_gap?)))
+            .map_or((summary.v_peak, (summary.tip_min, summary.tip_max)), |(v_peak, (low, high))| {
+                (v_peak, (gap * low, gap * high))
+            });
+        Demand { v_peak, tip, slope: None }
     });
     match (Safety::of(context.view, context.session), demand) {
         (Some(safety), Some(demand)) => safety.broken(&demand),
