@@ -86,7 +86,8 @@ impl Default for View {
 }
 
 impl View {
-    /// Reads a view, or a scenario alone, which leaves the rest of `present` as it is.
+    /// Reads a view, or a scenario alone, which leaves the rest of `present` as it is. A scenario with a device and
+    /// without the ten numbers has the numbers of the device.
     ///
     /// # Errors
     /// One line with the path of the field and what is wrong with it.
@@ -96,12 +97,18 @@ impl View {
             return Err("expected an object such as {\"parameters\":{\"omega\":25}}".to_owned());
         }
         let is_view = value.get("scenario").is_some();
-        let view = if is_view {
+        let scenario = value.get("scenario").unwrap_or(&value);
+        let numbers_follow = scenario.get("parameters").is_none();
+        let mut view = if is_view {
             Self::from_value(value)?
         } else {
             let scenario = serde_path_to_error::deserialize(value).map_err(describe)?;
             Self { scenario, ..present.clone() }
         };
+        if let Some(device) = view.scenario.device.filter(|_| numbers_follow) {
+            let scaling = view.scenario.scaling;
+            view.scenario.set_device(device, scaling).map_err(|error| error.to_string())?;
+        }
         view.check().map_err(|(_, reason)| reason)?;
         Ok(view)
     }
@@ -166,6 +173,23 @@ fn describe(error: serde_path_to_error::Error<serde_json::Error>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_device_alone_brings_its_own_numbers() {
+        let read = |json: &str| View::read(json, &View::default());
+        let device = r#""device":{"beam_length":0.3,"resistance":1e5},"scaling":"consistent""#;
+        for json in [format!("{{{device}}}"), format!(r#"{{"scenario":{{{device}}}}}"#)] {
+            let scenario = read(&json).expect("a device").scenario;
+            let found = scenario.device().expect("the same device");
+            assert!((found.resistance / 1e5 - 1.0).abs() < 1e-12, "{found:?}");
+            assert!((found.beam_mass / scenario.base().beam_mass - 1.0).abs() < 1e-12, "{found:?}");
+        }
+        // Beside numbers it says what they leave open.
+        let both = read(&format!(r#"{{{device},"parameters":{{"beta":0.002}}}}"#)).expect("both").scenario;
+        assert_eq!((both.parameters.beta, both.parameters.kappa), (0.002, 1e-6));
+        let bad = read(r#"{"device":{"beam_length":-1}}"#).expect_err("no beam");
+        assert!(bad.contains("beam_length"), "{bad}");
+    }
 
     #[test]
     fn a_view_round_trips_and_garbage_gives_a_fresh_start_with_a_reason() {

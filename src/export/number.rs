@@ -24,6 +24,11 @@ pub fn exact(value: f64) -> String {
 
 /// `value` with three to five significant digits: `0.0100`, `8.0969`, `1.00e−4`, `−100`, `0`.
 pub fn display(value: f64) -> String {
+    display_within(value, 5)
+}
+
+/// The same with at most `most` significant digits, three at least.
+pub fn display_within(value: f64, most: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
@@ -31,7 +36,7 @@ pub fn display(value: f64) -> String {
         return "–".to_owned();
     }
     let (mantissa, exponent) = decompose(value);
-    let digits = mantissa.trim_end_matches('0').len().clamp(3, 5);
+    let digits = mantissa.trim_end_matches('0').len().clamp(3, most.max(3));
     let text = if (-3..6).contains(&exponent) {
         let decimals = usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0);
         format!("{value:.decimals$}")

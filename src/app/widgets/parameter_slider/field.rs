@@ -9,6 +9,9 @@ use super::super::number;
 use crate::app::text::fill;
 use crate::app::theme;
 
+/// Left and right of the text, points.
+const MARGIN: i8 = 8;
+
 /// What is being typed, and the last complaint; kept between frames.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Memory {
@@ -60,6 +63,20 @@ pub(super) fn range_text(range: &RangeInclusive<f64>, unit: &str) -> String {
     if unit.is_empty() { text } else { format!("{text} {unit}") }
 }
 
+/// The value with its unit, with as many digits as a field of this width has room for; all are there once it is edited.
+pub(super) fn fitting(ui: &Ui, value: f64, unit: &str, width: f32) -> String {
+    let text = |digits: usize| {
+        let shown = number::display_within(value, digits);
+        if unit.is_empty() { shown } else { format!("{shown} {unit}") }
+    };
+    let font = egui::TextStyle::Monospace.resolve(ui.style());
+    let fits = |text: &String| {
+        let galley = ui.painter().layout_no_wrap(text.clone(), font.clone(), egui::Color32::PLACEHOLDER);
+        galley.size().x <= width - 2.0 * f32::from(MARGIN)
+    };
+    (3..=5).rev().map(text).find(fits).unwrap_or_else(|| text(3))
+}
+
 /// Shows the field in `rect`. Returns a newly committed, valid value.
 pub(super) fn show(
     ui: &mut Ui,
@@ -72,10 +89,7 @@ pub(super) fn show(
 ) -> Option<f64> {
     let tokens = theme::tokens(ui);
     let editing = memory.text.is_some();
-    let mut text = memory.text.clone().unwrap_or_else(|| {
-        let shown = number::display(value);
-        if subject.unit.is_empty() { shown } else { format!("{shown} {}", subject.unit) }
-    });
+    let mut text = memory.text.clone().unwrap_or_else(|| fitting(ui, value, subject.unit, rect.width()));
     let colour = if memory.error.is_some() && editing { tokens.danger } else { tokens.text_strong };
     // The frame is drawn here, so that the field keeps its size in every state.
     let hovered = ui.rect_contains_pointer(rect);
@@ -90,7 +104,7 @@ pub(super) fn show(
         .id(id)
         .font(egui::TextStyle::Monospace)
         .text_color(colour)
-        .frame(Frame::NONE.inner_margin(Margin::symmetric(8, 0)))
+        .frame(Frame::NONE.inner_margin(Margin::symmetric(MARGIN, 0)))
         .align(Align2::RIGHT_CENTER)
         .desired_width(rect.width())
         .min_size(rect.size())

@@ -170,3 +170,14 @@ fn the_compact_form_drags_too() {
     harness.drag(track.left_center() + egui::vec2(8.0, 0.0), track.right_center(), &mut draw);
     assert_eq!(value, 0.1);
 }
+
+#[test]
+fn a_narrow_field_shows_fewer_digits_instead_of_half_of_them() {
+    let mut harness = Harness::new(400.0, 200.0);
+    let mut widths = Vec::new();
+    harness.settle(|ui| {
+        let text = |width| super::field::fitting(ui, 0.47091, "MPa s", width);
+        widths = [200.0, 112.0, 40.0].map(text).to_vec();
+    });
+    assert_eq!(widths, ["0.47091 MPa s", "0.4709 MPa s", "0.471 MPa s"]);
+}
