@@ -87,6 +87,13 @@ impl Scenario {
         Ok(())
     }
 
+    /// The same with nothing in its device but what the ten numbers leave open: of two scenarios that compute the same
+    /// both are then equal.
+    #[must_use]
+    pub fn essential(self) -> Self {
+        Self { device: self.device.map(|device| device.left_open()), ..self }
+    }
+
     /// The SI units in which the dimensionless quantities count.
     pub fn units(&self) -> Units {
         Units::of(&self.base(), self.scaling)

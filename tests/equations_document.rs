@@ -23,6 +23,8 @@ impl Source {
         for module in ["model", "theory", "dynamics"] {
             source.read_folder(&root.join("solver/src").join(module), module)?;
         }
+        source.read_folder(&root.join("src/jobs"), "jobs")?;
+        source.read_folder(&root.join("tests/design"), "design")?;
         for entry in std::fs::read_dir(root.join("tests"))? {
             let path = entry?.path();
             if path.extension().is_some_and(|extension| extension == "rs") {

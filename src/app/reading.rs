@@ -55,6 +55,9 @@ impl Reading {
             }
         }
         remarks.extend(boundaries.and_then(|boundaries| theories(shown, boundaries)));
+        if shown.scenario.base().loss_tangent > 0.0 {
+            remarks.push(tr("without the dielectric loss, which the Design tab counts").to_owned());
+        }
         Self { tone, headline, facts, remarks }
     }
 }

@@ -7,7 +7,8 @@ use harvester_lab::jobs::study::find::FindStudy;
 use harvester_lab::jobs::study::map::DesignMap;
 use harvester_lab::jobs::study::motion_chart::{MotionChart, MotionQuestion};
 use harvester_lab::jobs::study::{Study, complete};
-use harvester_lab::model::{Dimension, ForceLaw, Limits, Parameter};
+use harvester_lab::model::materials::Ceramic;
+use harvester_lab::model::{Device, Dimension, ForceLaw, Limits, Parameter};
 use harvester_lab::scenario::{ModelChoice, Scenario};
 
 use super::{TestResult, figure_9};
@@ -153,5 +154,22 @@ fn a_map_is_the_bench_at_every_place_and_marks_what_is_not_allowed() -> TestResu
     let (place, best) = map.best().ok_or("one is allowed")?;
     assert!(best.violation == 0.0 && map.cell(place) == Some(&best));
     assert!(DesignMap::new(FindQuestion { variables: Vec::new(), ..question }, (7, 5)).is_err());
+    Ok(())
+}
+
+#[test]
+fn a_thinner_ceramic_bears_less_in_the_search_as_well() -> TestResult {
+    let mut question = question(Objective::Power, Limits::default());
+    let device = Device { ceramic: Some(Ceramic::Apc854), ..question.scenario.device()? };
+    question.scenario.set_base(device, question.scenario.scaling)?;
+    let coordinate = Coordinate::Dimension(Dimension::CeramicThickness);
+    let (thin, thick) = (1e-5, 1e-3);
+    question.variables = vec![Variable { coordinate, range: (thin, thick), logarithmic: true }];
+    let violation = |thickness: f64| evaluate(&question, &[thickness]).map(|found| found.violation);
+    assert!(violation(thin)? > 0.0 && violation(thick)? == 0.0);
+    // The border is where the peak meets the lower end of the published 5 to 7 V/mil.
+    let peak = operating(&question.scenario)?.reached.harvest.ok_or("it lasts")?.demand.v_peak;
+    let border = peak / 5.0 * 25.4e-6;
+    assert!(violation(0.999 * border)? > 0.0 && violation(1.001 * border)? == 0.0, "{peak} V, {border} m");
     Ok(())
 }

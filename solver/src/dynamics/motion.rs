@@ -168,12 +168,9 @@ pub struct Cell {
 impl Cell {
     /// What the motion asks of the device, its slope left open; `None` when it ended.
     pub fn demand(&self) -> Option<Demand> {
-        let ended = matches!(self.motion, Motion::Escape { .. } | Motion::Contact { .. });
-        (!ended).then_some(Demand { v_peak: self.v_peak, tip: self.tip, slope: None })
+        self.lasts().then_some(Demand { v_peak: self.v_peak, tip: self.tip, slope: None })
     }
-}
 
-impl Cell {
     /// Whether the motion goes on, so that it has means.
     pub fn lasts(&self) -> bool {
         !matches!(self.motion, Motion::Escape { .. } | Motion::Contact { .. })

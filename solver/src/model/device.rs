@@ -24,20 +24,6 @@ impl ElectricalScaling {
     /// Both.
     pub const ALL: [Self; 2] = [Self::AsPrinted, Self::Consistent];
 
-    /// What it is for, in one sentence.
-    pub const fn explanation(self) -> &'static str {
-        match self {
-            Self::AsPrinted => {
-                "As the paper prints it: capacitance, load and coupling are scaled with L^2, which gives the paper's \
-                 numbers from the paper's device but counts the coupling in N/V."
-            }
-            Self::Consistent => {
-                "Consistent in its units: capacitance, load and coupling are scaled with L, as a moment Theta V with \
-                 Theta in N m/V demands; choose it for a device of your own."
-            }
-        }
-    }
-
     /// The factor between a circuit's number and its dimensionless one, L^2/(E I) or L/(E I), for a beam of `length`
     /// (m) and bending stiffness `stiffness` (N m^2).
     pub(super) fn factor(self, length: f64, stiffness: f64) -> f64 {

@@ -46,6 +46,27 @@ impl Device {
         Ok(device)
     }
 
+    /// What [`Self::from_parameters`] keeps of this device; all that it solves for is as in Table 1.
+    #[must_use]
+    pub fn left_open(&self) -> Self {
+        let Self { magnet_length, flux_density, tip_mass, viscosity, capacitance, resistance, .. } =
+            Self::default();
+        let Self { coupling, base_amplitude, frequency, magnet_distance, .. } = Self::default();
+        Self {
+            magnet_length,
+            flux_density,
+            tip_mass,
+            viscosity,
+            capacitance,
+            resistance,
+            coupling,
+            base_amplitude,
+            frequency,
+            magnet_distance,
+            ..*self
+        }
+    }
+
     /// Amplitude of the base's acceleration, B Omega^2, in g.
     pub fn acceleration(&self) -> f64 {
         self.base_amplitude * (TAU * self.frequency).powi(2) / STANDARD_GRAVITY

@@ -55,6 +55,8 @@ pub(in crate::app) struct File {
     pub points: Vec<[f64; 2]>,
     /// What is drawn of them.
     pub drawn: Vec<PlotPoint>,
+    /// The point with the largest voltage.
+    pub highest: Option<[f64; 2]>,
     /// Root mean square and largest |v| (V) about the mean.
     pub measures: Option<(f64, f64)>,
 }
@@ -88,6 +90,7 @@ impl Measured {
                     import: None,
                     points: Vec::new(),
                     drawn: Vec::new(),
+                    highest: None,
                     measures: None,
                 });
                 self.read(reading);
@@ -153,6 +156,7 @@ impl File {
         let mut thinner = Thinner::new(range, BUCKETS);
         thinner.add(&self.points);
         self.drawn = thinner.points().iter().map(|[x, y]| PlotPoint::new(*x, *y)).collect();
+        self.highest = self.points.iter().copied().max_by(|a, b| a[1].total_cmp(&b[1]));
         let count = self.points.len() as f64;
         let mean = self.points.iter().map(|point| point[1]).sum::<f64>() / count;
         let square = self.points.iter().map(|point| (point[1] - mean).powi(2)).sum::<f64>() / count;

@@ -53,14 +53,22 @@ pub(super) fn device(scenario: &Scenario) -> Result<Device, ModelError> {
 
 /// What must be kept: the user's limits, with the voltage that the device's ceramic bears where none is given.
 pub(super) fn limits(view: &View) -> Limits {
+    chosen_limits(view).completed(&view.scenario.base())
+}
+
+/// The user's limits, which leave the voltage open to the ceramic where none is given.
+fn chosen_limits(view: &View) -> Limits {
     let chosen = view.design.limits;
-    let chosen = if chosen.validate().is_ok() { chosen } else { Limits::default() };
-    Limits { voltage: chosen.voltage.or(Limits::of(&view.scenario.base()).voltage), ..chosen }
+    if chosen.validate().is_ok() { chosen } else { Limits::default() }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::session::Session;
+    use crate::jobs::study::harvest::HarvestQuestion;
+    use crate::jobs::study::load::LoadStudy;
+    use crate::jobs::work::Work;
     use crate::model::ElectricalScaling;
 
     #[test]
@@ -72,5 +80,35 @@ mod tests {
         scenario.parameters.kappa *= 2.0;
         let moved = device(&scenario).expect("a device");
         assert!((moved.resistance / 617_280.0 - 1.0).abs() < 1e-9 && moved.beam_length == 0.45);
+    }
+
+    struct Asked {
+        harvest: HarvestQuestion,
+        best: Vec<Work>,
+        trust: Vec<Work>,
+    }
+
+    #[test]
+    fn what_plays_no_role_in_a_study_begins_no_other() {
+        let session = Session::default();
+        let questions = |change: &dyn Fn(&mut Device)| {
+            let mut view = View::default();
+            let mut entered = view.scenario.device().expect("a device");
+            change(&mut entered);
+            view.scenario.set_device(entered, ElectricalScaling::AsPrinted).expect("a device");
+            view.design.window = Some((2.6, 3.0));
+            let loads = LoadStudy::new(questions::load(&view).expect("loads")).expect("loads");
+            Asked {
+                harvest: questions::harvest(&view, &session),
+                best: questions::best_frequencies(&view, &session, &loads).works().to_vec(),
+                trust: questions::trust(&view).works().to_vec(),
+            }
+        };
+        let before = questions(&|_| {});
+        let elsewhere = questions(&|device| device.frequency = 2.81);
+        assert!(before.harvest == elsewhere.harvest && before.best == elsewhere.best);
+        assert!(before.trust != elsewhere.trust, "the frequency plays a role in the table of trust");
+        let loaded = questions(&|device| device.resistance *= 1.01);
+        assert!(before.harvest != loaded.harvest, "the load plays a role over frequency");
     }
 }

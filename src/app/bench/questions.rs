@@ -8,9 +8,8 @@ use crate::app::view::design::{Aim, Side};
 use crate::app::widgets::number::round_significant;
 use crate::dynamics::sweep::Dwell;
 use crate::dynamics::tongue::Window as TongueWindow;
+use crate::jobs::design::DesignWork;
 use crate::jobs::design::find::{FindQuestion, Objective, Variable};
-use crate::jobs::design::linear::{linear_balance, linear_peak};
-use crate::jobs::design::{DesignWork, Harvest, Plant};
 use crate::jobs::motions::{Coordinate, at_place};
 use crate::jobs::study::harvest::HarvestQuestion;
 use crate::jobs::study::load::{LoadQuestion, LoadStudy};
@@ -63,28 +62,12 @@ pub(in crate::app) fn harvest(view: &View, session: &Session) -> HarvestQuestion
         // Then the frequency in view plays no role, and must not make another question.
         scenario.parameters.omega = window.0;
     }
-    HarvestQuestion { scenario, window, count: FREQUENCIES, dwell: Dwell::default() }
+    HarvestQuestion { scenario: scenario.essential(), window, count: FREQUENCIES, dwell: Dwell::default() }
 }
 
 /// The curves over the load, at the frequency in view.
 pub(in crate::app) fn load(view: &View) -> Option<LoadQuestion> {
-    LoadQuestion::about(view.scenario.clone(), None).ok()
-}
-
-/// What the linear device would give at its own first resonance under the same acceleration: frequency (Hz) and what
-/// it harvests there.
-pub(in crate::app) fn linear_at_its_best(scenario: &Scenario) -> Option<(f64, Harvest)> {
-    let plant = Plant::new(scenario).ok()?;
-    let first = plant.without_magnets().ok()?.modes.iter().next()?.omega;
-    let (omega, _) = linear_peak(&plant, (0.6 * first, 1.4 * first)).ok()?;
-    let p = &scenario.parameters;
-    let mut there = scenario.clone();
-    there.parameters.beta = (p.beta * (p.omega / omega).powi(2)).min(Parameter::Beta.range().1);
-    there.parameters.omega = omega;
-    let plant = Plant::new(&there).ok()?;
-    let system = plant.without_magnets().ok()?;
-    let balance = linear_balance(&system).ok()?;
-    Some((plant.units.hertz(omega), Harvest::new(&plant, &system, &balance)))
+    LoadQuestion::about(view.scenario.clone().essential(), None).ok()
 }
 
 /// The ceramics on the device in view. What they replace plays no role and must not make another question.
@@ -94,6 +77,7 @@ pub(in crate::app) fn materials(view: &View) -> Table {
     let mut base = scenario.base();
     (base.ceramic, base.loss_tangent, base.viscosity) = (None, 0.0, 0.0);
     scenario.device = Some(base);
+    let scenario = scenario.essential();
     let mode = view.design.mode.clamp(1, view.scenario.model.modes);
     Table::materials(&scenario, mode, view.design.resonance, TongueWindow::default())
 }
@@ -101,8 +85,12 @@ pub(in crate::app) fn materials(view: &View) -> Table {
 /// The quantity in view over modes and force laws.
 pub(in crate::app) fn trust(view: &View) -> Table {
     // The model in view plays no role: every entry has its own.
-    let mut scenario = Scenario { initial: None, ..view.scenario.clone() };
-    scenario.model = ModelChoice::default();
+    let mut scenario = view.scenario.clone().essential();
+    let ModelChoice { modes, force } = ModelChoice::default();
+    scenario.model.force = force;
+    if scenario.initial.is_none() {
+        scenario.model.modes = modes;
+    }
     Table::trust(&scenario, view.design.quantity)
 }
 
@@ -114,6 +102,7 @@ pub(in crate::app) fn best_frequencies(view: &View, session: &Session, loads: &L
         scenario.parameters.omega = window.0;
     }
     scenario.parameters.kappa = Parameter::Kappa.get(&Default::default());
+    let scenario = scenario.essential();
     let limits = bench::limits(view);
     let work = |resistance: &f64| {
         let (scenario, resistance) = (scenario.clone(), *resistance);
@@ -179,7 +168,7 @@ pub(in crate::app) fn map(view: &View, session: &Session) -> FindQuestion {
         scenario = anywhere;
     }
     let objective = objective(view, session);
-    FindQuestion { scenario, variables, objective, limits: bench::limits(view) }
+    FindQuestion { scenario: scenario.essential(), variables, objective, limits: bench::chosen_limits(view) }
 }
 
 /// The search in view, from the device in view.
@@ -188,5 +177,6 @@ pub(in crate::app) fn find(view: &View, session: &Session) -> FindQuestion {
     let sides = search.sides.iter().chain(&search.third);
     let variables = sides.map(|side| variable(view, session, side)).collect();
     let objective = objective(view, session);
-    FindQuestion { scenario: view.scenario.clone(), variables, objective, limits: bench::limits(view) }
+    let (scenario, limits) = (view.scenario.clone(), bench::chosen_limits(view));
+    FindQuestion { scenario, variables, objective, limits }
 }

@@ -6,7 +6,8 @@ use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::view::design::Page;
 use crate::jobs::design::find::FindQuestion;
-use crate::jobs::design::{DesignFinding, DesignWork, Harvest, Operating};
+use crate::jobs::design::linear::{LinearBest, linear_at_its_best};
+use crate::jobs::design::{DesignFinding, DesignWork, Operating};
 use crate::jobs::foreman::Lane;
 use crate::jobs::study::Study as _;
 use crate::jobs::study::find::FindStudy;
@@ -44,8 +45,8 @@ pub(in crate::app) struct BenchStudies {
     pub find: Lane<FindStudy>,
     /// Whether the search was ended.
     ended: bool,
-    /// The linear device at its best (Hz), and for which scenario.
-    reference: Option<(Scenario, Option<(f64, Harvest)>)>,
+    /// The linear device at its best, and for which scenario.
+    reference: Option<(Scenario, Option<LinearBest>)>,
 }
 
 impl BenchStudies {
@@ -55,7 +56,7 @@ impl BenchStudies {
         let work = Work::Design(DesignWork::Operating { scenario: scenario.clone() });
         offer(&mut self.operating, work);
         if self.reference.as_ref().is_none_or(|(of, _)| of != scenario) {
-            self.reference = Some((scenario.clone(), questions::linear_at_its_best(scenario)));
+            self.reference = Some((scenario.clone(), linear_at_its_best(scenario).ok()));
         }
         let page = view.design.page;
         if matches!(page, Page::Harvest | Page::Measured) {
@@ -157,7 +158,7 @@ impl BenchStudies {
     }
 
     /// What the linear device would give at its own first resonance (Hz).
-    pub(in crate::app) fn linear_at_its_best(&self) -> Option<&(f64, Harvest)> {
+    pub(in crate::app) fn linear_at_its_best(&self) -> Option<&LinearBest> {
         self.reference.as_ref().and_then(|(_, best)| best.as_ref())
     }
 }

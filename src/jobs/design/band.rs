@@ -33,7 +33,7 @@ pub fn usable(curves: &[Vec<[f64; 2]>], least: f64) -> Vec<Interval> {
 
 /// Their total width (Hz).
 pub fn total(intervals: &[Interval]) -> f64 {
-    intervals.iter().map(|interval| interval.to - interval.from).sum()
+    intervals.iter().map(|interval| interval.to - interval.from).fold(0.0, |total, width| total + width)
 }
 
 /// The interval about the highest point of the `curves` in which at least half its power is reached; `None` without

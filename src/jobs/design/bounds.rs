@@ -43,7 +43,9 @@ impl Bounds {
     /// What is left to the nearest limit (dimensionless, of that limit); negative beyond it.
     pub fn margin(&self, v_peak: f64, tip: (f64, f64)) -> f64 {
         let checks = self.limits.checks(&self.demand(v_peak, tip), self.gap);
-        checks.iter().map(|check| check.margin).fold(f64::INFINITY, f64::min)
+        // What is no number stays so.
+        let least = |least: f64, margin: f64| if least <= margin || least.is_nan() { least } else { margin };
+        checks.iter().map(|check| check.margin).fold(f64::INFINITY, least)
     }
 
     /// (Frequency, power) of those parts of `pieces` that keep the limits, cut where the margin vanishes on the line

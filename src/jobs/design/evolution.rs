@@ -19,7 +19,7 @@ pub struct Evolution {
 }
 
 impl Evolution {
-    /// `size` (at least 4) candidates spread over a cube of `dimension` sides: a Latin square's share each, and the
+    /// `size` (at least 4) candidates spread over a cube of `dimension` sides: Latin hypercube sampling, and the
     /// `first` one where given.
     pub fn new(dimension: usize, size: usize, seed: u64, first: Option<Vec<f64>>) -> Self {
         let size = size.max(4);
@@ -60,16 +60,6 @@ impl Evolution {
             }
         }
         self.trials = (0..self.population.len()).map(|i| self.challenger(i)).collect();
-    }
-
-    /// Best member and its rank.
-    pub fn best(&self) -> Option<(&[f64], (f64, f64))> {
-        let order = |i: &usize, j: &usize| {
-            let (a, b) = (self.ranks[*i], self.ranks[*j]);
-            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
-        };
-        let best = (0..self.population.len()).max_by(order)?;
-        Some((&self.population[best], self.ranks[best]))
     }
 
     fn challenger(&mut self, i: usize) -> Vec<f64> {
@@ -144,8 +134,16 @@ mod tests {
             evolution.advance(&ranks);
             assert!(evolution.trials().iter().flatten().all(|x| (0.0..=1.0).contains(x)));
         }
-        let (place, rank) = evolution.best().expect("a population");
+        let (place, rank) = best(&evolution);
         (place.to_vec(), rank.1)
+    }
+
+    /// Best member and its rank.
+    fn best(evolution: &Evolution) -> (&[f64], (f64, f64)) {
+        let ranked = evolution.population.iter().zip(&evolution.ranks);
+        let highest = ranked.max_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let (place, rank) = highest.expect("a population");
+        (place, *rank)
     }
 
     #[test]

@@ -10,6 +10,7 @@ use super::{DesignError, Plant};
 use crate::dynamics::Motion;
 use crate::dynamics::tongue::Window;
 use crate::jobs::motions::{Coordinate, at_place};
+use crate::model::limits::Standing;
 use crate::model::{Limits, ModelError};
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
@@ -80,7 +81,7 @@ pub struct FindQuestion {
     pub variables: Vec<Variable>,
     /// What is to be good.
     pub objective: Objective,
-    /// What must be kept.
+    /// What must be kept; where no voltage is given it is the one that a candidate's own ceramic bears.
     pub limits: Limits,
 }
 
@@ -182,8 +183,11 @@ fn lasting_at(question: &FindQuestion, plant: &Plant, omega: f64) -> Option<(Las
     let violation = match found.harvest {
         None => NO_MOTION,
         Some(harvest) => {
-            let checks = question.limits.checks(&harvest.demand, Plant::gap(&system));
-            checks.iter().map(|check| (-check.margin).max(0.0)).sum()
+            let limits = question.limits.completed(&scenario.base());
+            let checks = limits.checks(&harvest.demand, Plant::gap(&system));
+            let beyond = checks.iter().filter(|check| check.standing != Standing::Within);
+            // What is just met, or is no number, counts as well.
+            beyond.map(|check| if check.margin < 0.0 { -check.margin } else { f64::MIN_POSITIVE }).sum()
         }
     };
     Some((found, violation))

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{DesignError, Interval, Plant};
 use crate::dynamics::Balance;
 use crate::model::ReducedSystem;
+use crate::scenario::Scenario;
 use crate::theory::{LinearResponse, spectrum::eigenvalues};
 
 /// Distances from a resonance, in its own widths, at which a curve has points.
@@ -106,6 +107,40 @@ pub fn linear_peak(plant: &Plant, window: (f64, f64)) -> Result<(f64, f64), Desi
     };
     let place = peak(power, &frequencies(&system, window, PEAK_POINTS)?);
     Ok((place, power(place)))
+}
+
+/// The linear device at its best.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearBest {
+    /// Frequency (Hz).
+    pub frequency: f64,
+    /// Mean power in the load (W).
+    pub power: f64,
+    /// Amplitude of the tip (beam lengths).
+    pub tip: f64,
+}
+
+/// What the linear device of `scenario` gives at its own first resonance under the same acceleration of the base, which
+/// may take an amplitude there that no run of the nonlinear device is allowed.
+///
+/// # Errors
+/// [`DesignError`].
+pub fn linear_at_its_best(scenario: &Scenario) -> Result<LinearBest, DesignError> {
+    let own = Plant::new(scenario)?.without_magnets()?;
+    let first = own.modes.iter().map(|mode| mode.omega).fold(f64::INFINITY, f64::min);
+    let (omega, _) = linear_peak(&Plant::new(scenario)?, (0.6 * first, 1.4 * first))?;
+    let mut there = scenario.clone();
+    there.parameters.omega = omega;
+    let plant = Plant::new(&there)?;
+    let response = LinearResponse::new(&plant.without_magnets()?)?;
+    // Everything is in proportion to the amplitude.
+    let ratio = (own.parameters.omega / omega).powi(2);
+    let v_rms = ratio * response.voltage.norm() * std::f64::consts::FRAC_1_SQRT_2;
+    Ok(LinearBest {
+        frequency: plant.units.hertz(omega),
+        power: plant.watts(v_rms),
+        tip: ratio * response.tip().norm(),
+    })
 }
 
 /// Where `power` is highest, near the best of the ascending `omegas`.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Study;
 use super::sweep::{Direction, SweepQuestion, SweepStudy};
 use crate::dynamics::Motion;
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::sweep::{Dwell, SweepPoint};
 use crate::jobs::design::linear::{LinearCurve, linear_curve};
 use crate::jobs::design::{DesignError, HarvestPoint, Plant};
 use crate::jobs::motions::{Coordinate, MotionPlane};
@@ -107,18 +107,15 @@ impl HarvestStudy {
         curve.points.iter().map(point).collect()
     }
 
-    /// What the sweep has reached so far, in the order of its way; ended motions deliver nothing.
-    pub fn swept(&self, direction: Direction) -> Vec<HarvestPoint> {
-        let points = self.sweeps.points(direction).iter();
-        points.map(|point| HarvestPoint::of_sweep(&self.plant, point)).collect()
+    /// What the sweep has reached so far, in the order of its way; `None` where the motion ended.
+    pub fn swept(&self, direction: Direction) -> Vec<Option<HarvestPoint>> {
+        let point = |point: &SweepPoint| (!point.ended).then(|| HarvestPoint::of_sweep(&self.plant, point));
+        self.sweeps.points(direction).iter().map(point).collect()
     }
 
-    /// The same without the ended motions, cut where they were.
+    /// The same in pieces, cut where the motion ended.
     pub fn swept_pieces(&self, direction: Direction) -> Vec<Vec<HarvestPoint>> {
-        let points = self.swept(direction);
-        let lasts = |point: &HarvestPoint| point.v_peak > 0.0;
-        let runs = points.chunk_by(|a, b| lasts(a) == lasts(b)).filter(|run| run.first().is_some_and(lasts));
-        runs.map(<[_]>::to_vec).collect()
+        pieces(self.swept(direction))
     }
 
     /// What is reached from rest, by ascending frequency; `None` until it is known, the inner one where the motion ends
@@ -146,13 +143,7 @@ impl HarvestStudy {
 
     /// What is reached from rest, cut where the motion ends or is not known.
     pub fn rest_pieces(&self) -> Vec<Vec<HarvestPoint>> {
-        let known =
-            |start: &Option<Option<(Motion, HarvestPoint)>>| start.as_ref().and_then(Option::as_ref).copied();
-        let runs = self.starts.chunk_by(|a, b| known(a).is_some() == known(b).is_some());
-        let piece = |run: &[_]| -> Vec<HarvestPoint> {
-            run.iter().filter_map(known).map(|(_, point)| point).collect()
-        };
-        runs.map(piece).filter(|piece| !piece.is_empty()).collect()
+        pieces(self.starts.iter().map(|start| start.flatten().map(|(_, point)| point)).collect())
     }
 
     fn omega(&self, index: usize) -> f64 {
@@ -177,6 +168,14 @@ impl HarvestStudy {
         let places = (begin..end).map(|index| [self.omega(index), beta]).collect();
         Some((STARTS + begin / PER_PIECE, Work::Motions { plane, places }))
     }
+}
+
+/// A curve in pieces, cut where there is nothing.
+fn pieces(curve: Vec<Option<HarvestPoint>>) -> Vec<Vec<HarvestPoint>> {
+    let runs = curve.chunk_by(|a, b| a.is_some() == b.is_some());
+    runs.map(|run| run.iter().flatten().copied().collect::<Vec<_>>())
+        .filter(|piece| !piece.is_empty())
+        .collect()
 }
 
 impl Study for HarvestStudy {

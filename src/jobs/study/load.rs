@@ -103,7 +103,9 @@ impl LoadStudy {
         let count = resistances.len();
         let own = plant.resistance().ln();
         let distance = |i: &usize| (resistances[*i].ln() - own).abs();
-        let middle = (0..count).min_by(|i, j| distance(i).total_cmp(&distance(j))).unwrap_or(0);
+        let nearest = (0..count).min_by(|i, j| distance(i).total_cmp(&distance(j))).unwrap_or(0);
+        // An open circuit is nearest to the largest load.
+        let middle = if own.is_finite() { nearest } else { count - 1 };
         let chain = |indices: Vec<usize>| Chain { indices, done: 0, state: None, under_way: false };
         let chains = [chain((middle..count).collect()), chain((0..=middle).rev().collect())];
         let best = if question.window.is_some() { vec![None; count] } else { Vec::new() };

@@ -3,7 +3,7 @@
 use egui::{Color32, Grid, RichText, Ui};
 use egui_plot::PlotUi;
 
-use super::harvest::Measure;
+use super::measure::Measure;
 use super::safety::Safety;
 use crate::app::bench::questions;
 use crate::app::panels::{Context, grid};

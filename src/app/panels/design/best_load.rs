@@ -2,7 +2,9 @@
 
 use egui::{RichText, Ui};
 
-use super::load::{best_frequencies, use_load};
+use super::going::{go_to, use_load};
+use super::load::best_frequencies;
+use super::optimum::Optimum;
 use super::safety::Safety;
 use crate::app::panels::computing;
 use crate::app::panels::{Context, grid};
@@ -10,31 +12,8 @@ use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::widgets::Card;
 use crate::app::widgets::number::{significant, with_unit};
-use crate::jobs::design::Bounds;
-use crate::jobs::design::load::{BestFrequency, LoadPoint, Peak, best};
+use crate::jobs::design::load::{BestFrequency, LoadPoint, Peak};
 use crate::jobs::study::Study as _;
-use crate::jobs::study::load::LoadStudy;
-
-/// The best of the motions reached, of all and of those that keep the limits.
-#[derive(Clone, Copy)]
-pub(super) struct Best {
-    of_all: LoadPoint,
-    within_limits: Option<LoadPoint>,
-}
-
-impl Best {
-    /// None when no motion lasts.
-    pub(super) fn of(study: &LoadStudy, bounds: Option<Bounds>) -> Option<Self> {
-        let points = study.reached().iter().flatten().copied();
-        let keeps = |point: &LoadPoint| bounds.is_none_or(|bounds| bounds.allows(point.v_peak, point.tip));
-        Some(Self { of_all: best(points.clone())?, within_limits: best(points.filter(keeps)) })
-    }
-
-    /// The one to recommend.
-    pub(super) fn to_use(self) -> LoadPoint {
-        self.within_limits.unwrap_or(self.of_all)
-    }
-}
 
 /// Draws the cards beside the curves over the load.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
@@ -51,7 +30,7 @@ pub(super) fn brief(context: &mut Context<'_>, ui: &mut Ui) {
     let [resistance, power] = study.linear_best();
     line(ui, &fill("without magnets: {what}", &[("what", &gives(resistance, power))]));
     let bounds = Safety::of(context.view, context.session).map(|safety| safety.0);
-    match Best::of(study, bounds).filter(|_| study.finished()) {
+    match Optimum::of(study, bounds).filter(|_| study.finished()) {
         Some(best) => {
             let of = |point: &LoadPoint| (gives(point.resistance, point.power), point.resistance);
             let all = of(&best.of_all);
@@ -129,7 +108,7 @@ fn both(context: &mut Context<'_>, ui: &mut Ui) {
         let (_, (resistance, peak)) = within.unwrap_or(all);
         // Half of a search may be far from the best.
         if ui.add_enabled(finished, egui::Button::new(tr("Use both"))).clicked() {
-            super::harvest::go_to(context, peak.frequency);
+            go_to(context, peak.frequency);
             use_load(context, resistance);
         }
         line(ui, tr("A start at rest may lead to another motion."));

@@ -3,6 +3,8 @@
 use egui::Ui;
 use egui_plot::PlotPoint;
 
+use super::going::go_to;
+use super::measure::{Measure, values};
 use super::safety::{Safety, beyond};
 use crate::app::panels::Context;
 use crate::app::panels::computing;
@@ -10,7 +12,6 @@ use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::view::design::Watched;
-use crate::app::widgets::number::{prefix, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
 use crate::export::Pen;
@@ -76,61 +77,6 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
             (Series::Beyond, tr("beyond a limit")),
         ],
     );
-}
-
-/// What the vertical axis measures.
-pub(in crate::app) struct Measure {
-    watched: Watched,
-    factor: f64,
-    axis: Axis,
-}
-
-impl Measure {
-    /// For values up to `highest`, in SI units.
-    pub(in crate::app) fn new(watched: Watched, logarithmic: bool, highest: f64) -> Self {
-        let (factor, sign) = if watched == Watched::Tip { (1.0, "") } else { prefix(highest) };
-        let (name, symbol, unit) = match watched {
-            Watched::Power => (tr("power in the load"), "P", "W"),
-            Watched::PerG2 => (tr("power per g²"), "P/a²", "W/g²"),
-            Watched::Voltage => (tr("voltage, rms"), "v", "V"),
-            Watched::Peak => (tr("largest voltage"), "v", "V"),
-            Watched::Tip => (tr("tip"), "s", "mm"),
-        };
-        let axis = Axis::new(name, symbol).unit(format!("{sign}{unit}"));
-        let axis = if logarithmic && watched != Watched::Tip { axis.logarithmic() } else { axis };
-        Self { watched, factor, axis }
-    }
-
-    /// One value in SI units (mm for the tip), or two where there is a range.
-    fn values(&self, point: &HarvestPoint) -> [f64; 2] {
-        values(self.watched, point)
-    }
-
-    /// Where a value in SI units is drawn.
-    pub(in crate::app) fn coordinate(&self, value: f64) -> f64 {
-        self.axis.coordinate(self.factor * value)
-    }
-
-    /// Its axis.
-    pub(in crate::app) fn axis(&self) -> &Axis {
-        &self.axis
-    }
-
-    fn line(&self, points: &[HarvestPoint], side: usize) -> Vec<PlotPoint> {
-        let place =
-            |point: &HarvestPoint| PlotPoint::new(point.frequency, self.coordinate(self.values(point)[side]));
-        points.iter().map(place).collect()
-    }
-}
-
-fn values(watched: Watched, point: &HarvestPoint) -> [f64; 2] {
-    match watched {
-        Watched::Power => [point.power; 2],
-        Watched::PerG2 => [point.power_per_g2; 2],
-        Watched::Voltage => [point.v_rms; 2],
-        Watched::Peak => [point.v_peak; 2],
-        Watched::Tip => [point.tip.0, point.tip.1],
-    }
 }
 
 /// Everything that is drawn: its kind, its name, its points.
@@ -227,18 +173,4 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
         let frequency = shown.transform.value_from_position(at).x.clamp(low, high);
         go_to(context, frequency);
     }
-}
-
-/// Goes to a frequency (Hz), at the acceleration or the amplitude that is held.
-pub(super) fn go_to(context: &mut Context<'_>, frequency: f64) {
-    let holds = context.view.design.holds_acceleration;
-    context.edit(|scenario| {
-        let units = scenario.units();
-        let p = &mut scenario.parameters;
-        let omega = round_significant(units.omega(frequency), 5);
-        if holds {
-            p.beta *= (p.omega / omega).powi(2);
-        }
-        p.omega = omega;
-    });
 }

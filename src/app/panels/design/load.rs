@@ -3,14 +3,15 @@
 use egui::{RichText, Ui};
 use egui_plot::PlotPoint;
 
-use super::best_load::Best;
+use super::going::use_load;
+use super::optimum::Optimum;
 use super::safety::{Safety, beyond};
 use crate::app::panels::Context;
 use crate::app::panels::computing;
 use crate::app::text::{fill, marked, reworded, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
-use crate::app::widgets::number::{prefix, round_significant, significant, with_unit};
+use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
 use crate::export::Pen;
@@ -117,7 +118,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
     drawn.push((Series::Beyond, tr("beyond a limit"), over));
     let own = Plant::new(&view.scenario).map_or(f64::NAN, |plant| plant.resistance());
     let colour = theme::tokens(ui).ruler;
-    let optimum = Best::of(study, bounds).filter(|_| study.finished()).map(|best| best.to_use());
+    let optimum = Optimum::of(study, bounds).filter(|_| study.finished()).map(|best| best.to_use());
     let mut plot = plot_style::plot(ui, ("load", y.title()), &x, &y);
     if !view.design.logarithmic {
         plot = plot.include_y(0.0).include_y(1.1 * factor * highest);
@@ -137,19 +138,4 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
         let (low, high) = study.question().range;
         use_load(context, x.value(shown.transform.value_from_position(position).x).clamp(low, high));
     }
-}
-
-/// Makes `resistance` (ohm) the load.
-pub(super) fn use_load(context: &mut Context<'_>, resistance: f64) {
-    let resistance = round_significant(resistance, 4);
-    // After another wish of this frame, if there is one.
-    let waiting = context.commands.iter().rev().find_map(|command| match command {
-        crate::app::command::Command::Show(scenario) => Some((**scenario).clone()),
-        _ => None,
-    });
-    let before = waiting.unwrap_or_else(|| context.view.scenario.clone());
-    context.edit(|scenario| {
-        *scenario = before;
-        scenario.parameters.kappa = 1.0 / (scenario.units().power * resistance);
-    });
 }

@@ -4,7 +4,7 @@ use egui::{RichText, Ui};
 use egui_plot::PlotPoint;
 
 use super::alignment;
-use super::harvest::Measure;
+use super::measure::Measure;
 use crate::app::bench::measured::{Domain, File};
 use crate::app::command::Command;
 use crate::app::panels::{Context, grid};
@@ -224,8 +224,7 @@ fn compared(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
         );
     }
     if file.reading.domain == Domain::Frequency {
-        let highest = file.points.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
-        if let Some([frequency, volts]) = highest {
+        if let Some([frequency, volts]) = &file.highest {
             line(
                 ui,
                 fill(
@@ -258,6 +257,9 @@ fn compared(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
         if v_rms > 0.0 {
             line(ui, fill("measured over computed: {ratio}", &[("ratio", &significant(rms / v_rms, 3))]));
         }
+    }
+    if context.view.scenario.base().loss_tangent > 0.0 {
+        line(ui, tr("The curve is drawn without the dielectric loss.").to_owned());
     }
     alignment::controls(context, ui, file);
 }

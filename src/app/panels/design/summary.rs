@@ -12,7 +12,8 @@ use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::{Card, Tile, tiles};
 use crate::dynamics::Motion;
 use crate::jobs::design::{Harvest, Operating};
-use crate::model::limits::Standing;
+use crate::model::ElectricalScaling;
+use crate::model::limits::{Standing, sag};
 
 /// Least width of a tile, points.
 const TILE: f32 = 140.0;
@@ -148,16 +149,16 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
         ));
     }
     let best = context.studies.bench.linear_at_its_best();
-    if let (Some((frequency, linear)), Some(harvest)) = (best, &operating.reached.harvest)
+    if let (Some(linear), Some(harvest)) = (best, &operating.reached.harvest)
         && linear.power > 0.0
     {
-        let bends = linear.demand.tip.1 > bench::limits(context.view).deflection;
+        let bends = linear.tip > bench::limits(context.view).deflection;
         facts.push(fill(
             "{times} its {power} at its own resonance, {hertz} Hz, under the same {acceleration} g{bends}",
             &[
                 ("times", &times(harvest.power / linear.power)),
                 ("power", &with_unit(linear.power, "W")),
-                ("hertz", &significant(*frequency, 4)),
+                ("hertz", &significant(linear.frequency, 4)),
                 ("acceleration", &significant(operating.acceleration, 3)),
                 ("bends", &if bends { tr(", where it would bend far beyond a linear beam") } else { "" }),
             ],
@@ -185,8 +186,16 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
             ],
         ));
     }
+    if context.view.scenario.scaling == ElectricalScaling::AsPrinted {
+        // See `Units::power`.
+        let factor = 1.0 / context.view.scenario.units().length;
+        remarks.push(fill(
+            "input and losses count {factor} times their watts under the printed scaling",
+            &[("factor", &significant(factor, 3))],
+        ));
+    }
     if let Ok(device) = bench::device(&context.view.scenario) {
-        let sag = bench::limits(context.view).sag(&device);
+        let sag = sag(&device);
         if sag.standing == Standing::Exceeded {
             let sags = safety::in_words(&sag);
             remarks.push(fill("the beam {sags}, which the model counts as small", &[("sags", &sags)]));

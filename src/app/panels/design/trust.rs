@@ -235,7 +235,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
         });
     });
     let text = tr(
-        "From rest. Coloured by the difference from 8 modes under the exact law: green to 5 %, amber to 25 %. \
+        "From the start in view. Coloured by the difference from 8 modes under the exact law: green to 5 %, amber to 25 %. \
          Motions of different classes do not converge to each other.",
     );
     ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());

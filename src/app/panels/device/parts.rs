@@ -100,7 +100,17 @@ fn circuit(ui: &mut Ui, device: &mut Device, scaling: &mut ElectricalScaling) {
         ];
         ui.add_space(4.0);
         chips(ui, tr("Electrical scaling"), scaling, &choices);
-        let text = RichText::new(scaling.explanation()).small().color(theme::tokens(ui).text_weak);
+        let text = match scaling {
+            ElectricalScaling::AsPrinted => tr(
+                "As the paper prints it: capacitance, load and coupling are scaled with L², which gives the paper's \
+                 numbers from the paper's device but counts the coupling in N/V.",
+            ),
+            ElectricalScaling::Consistent => tr(
+                "Consistent in its units: capacitance, load and coupling are scaled with L, as a moment ΘV with Θ in \
+                 N m/V demands; choose it for a device of your own.",
+            ),
+        };
+        let text = RichText::new(text).small().color(theme::tokens(ui).text_weak);
         ui.add(egui::Label::new(text).wrap());
     });
 }

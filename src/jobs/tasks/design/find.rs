@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ChosenLimits, failed};
+use super::failed;
 use crate::jobs::RequestError;
 use crate::jobs::design::find::{Evaluation, FindQuestion, Objective, Variable};
 use crate::jobs::motions::Coordinate;
 use crate::jobs::study::complete;
 use crate::jobs::study::find::FindStudy;
-use crate::model::{Device, ParameterSet};
+use crate::model::{Device, Limits, ParameterSet};
 use crate::scenario::Scenario;
 
 /// A better design.
@@ -20,9 +20,9 @@ pub struct FindTask {
     /// What is to be good.
     #[serde(default = "FindTask::default_objective")]
     pub objective: Objective,
-    /// What must be kept.
+    /// What must be kept; the voltage by the ceramic where none is given.
     #[serde(default)]
-    pub limits: ChosenLimits,
+    pub limits: Limits,
     /// Generations of the search.
     #[serde(default = "FindTask::default_generations")]
     pub generations: usize,
@@ -81,8 +81,7 @@ impl FindTask {
             Ok(Variable { coordinate, range: (named.from, named.to), logarithmic: named.logarithmic })
         };
         let variables = self.variables.iter().map(variable).collect::<Result<_, RequestError>>()?;
-        let limits = self.limits.complete(&scenario)?;
-        let question = FindQuestion { scenario, variables, objective: self.objective, limits };
+        let question = FindQuestion { scenario, variables, objective: self.objective, limits: self.limits };
         let mut study = FindStudy::new(question, self.generations, self.seed)?;
         complete(&mut study);
         failed(study.failure())?;

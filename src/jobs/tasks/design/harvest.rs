@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ChosenLimits, failed};
+use super::failed;
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::RequestError;
 use crate::jobs::design::band::{half_power, total, usable};
@@ -12,7 +12,7 @@ use crate::jobs::design::{Bounds, HarvestPoint, Interval, Operating, Plant, oper
 use crate::jobs::study::complete;
 use crate::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
 use crate::jobs::study::sweep::Direction;
-use crate::model::ModelError;
+use crate::model::{Limits, ModelError};
 use crate::scenario::Scenario;
 
 /// What the device harvests.
@@ -21,10 +21,10 @@ use crate::scenario::Scenario;
 pub struct HarvestTask {
     /// Frequencies of the curves; no curves when absent.
     pub frequency: Option<Hertz>,
-    /// Power (W) that counts as usable, for the bands.
+    /// Power (W) that counts as usable, for the bands; half of the highest of all curves by default.
     pub least: Option<f64>,
-    /// What must be kept in the bands within limits.
-    pub limits: ChosenLimits,
+    /// What must be kept in the bands within limits; the voltage by the ceramic where none is given.
+    pub limits: Limits,
 }
 
 /// Equally spaced frequencies.
@@ -76,12 +76,15 @@ pub struct Curves {
     pub linear: LinearCurve,
     /// The forced motion and the doubled ones that leave it.
     pub branches: Vec<BranchCurve>,
+    /// Why there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub branches_missing: Option<String>,
     /// What is reached from rest at each frequency: class and point, null where it ended.
     pub from_rest: Vec<Option<(String, HarvestPoint)>>,
-    /// What a sweep up reaches.
-    pub up: Vec<HarvestPoint>,
-    /// What a sweep down reaches.
-    pub down: Vec<HarvestPoint>,
+    /// What a sweep up reaches, null where it ended.
+    pub up: Vec<Option<HarvestPoint>>,
+    /// What a sweep down reaches, null where it ended.
+    pub down: Vec<Option<HarvestPoint>>,
     /// Bands of these curves.
     pub bands: Vec<Band>,
 }
@@ -124,7 +127,7 @@ impl HarvestTask {
     fn curves(&self, scenario: Scenario, frequency: Hertz) -> Result<Curves, RequestError> {
         let plant = Plant::new(&scenario)?;
         let window = frequency.window(&plant)?;
-        let bounds = Bounds::new(&plant, self.limits.complete(&scenario)?)?;
+        let bounds = Bounds::new(&plant, self.limits.completed(&scenario.base()))?;
         let dwell = Dwell::default();
         let mut study =
             HarvestStudy::new(HarvestQuestion { scenario, window, count: frequency.count, dwell })?;
@@ -137,7 +140,15 @@ impl HarvestTask {
         };
         let class = |(motion, point)| (super::super::class(motion), point);
         let linear = study.linear().clone();
-        let least = self.least.unwrap_or(0.5 * linear.peak[1]);
+        let curves = [
+            ("linear", vec![study.linear_points()]),
+            ("stable", study.stable_pieces()),
+            ("from_rest", study.rest_pieces()),
+            ("up", study.swept_pieces(Direction::Up)),
+            ("down", study.swept_pieces(Direction::Down)),
+        ];
+        let points = curves.iter().flat_map(|(_, pieces)| pieces.iter().flatten());
+        let least = self.least.unwrap_or(0.5 * points.map(|point| point.power).fold(0.0, f64::max));
         let band = |of, bounds: Bounds, pieces: &[Vec<HarvestPoint>]| {
             let curves = powers(pieces);
             let within_limits = usable(&bounds.powers_within(pieces), least);
@@ -151,20 +162,21 @@ impl HarvestTask {
                 within_limits,
             }
         };
-        let bare = band("linear", bounds.without_magnets(), &[study.linear_points()]);
-        let bands = vec![
-            Band { half_power: Some(linear.half_power), ..bare },
-            band("stable", bounds, &study.stable_pieces()),
-            band("from_rest", bounds, &study.rest_pieces()),
-            band("up", bounds, &study.swept_pieces(Direction::Up)),
-            band("down", bounds, &study.swept_pieces(Direction::Down)),
-        ];
+        let bands = curves.map(|(of, pieces)| match of {
+            // Its half-power band is known exactly, and it has no magnets to touch.
+            "linear" => {
+                let band = band(of, bounds.without_magnets(), &pieces);
+                Band { half_power: Some(linear.half_power), ..band }
+            }
+            _ => band(of, bounds, &pieces),
+        });
         Ok(Curves {
             branches: branches.iter().map(branch).collect(),
+            branches_missing: study.branches().and_then(Result::err).map(str::to_owned),
             from_rest: study.from_rest().iter().map(|start| start.flatten().map(class)).collect(),
             up: study.swept(Direction::Up),
             down: study.swept(Direction::Down),
-            bands,
+            bands: bands.to_vec(),
             linear,
         })
     }

@@ -2,13 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::failed;
 use super::harvest::Hertz;
-use super::{ChosenLimits, failed};
 use crate::jobs::RequestError;
 use crate::jobs::design::load::{BestFrequency, LoadPoint, best};
 use crate::jobs::design::{Bounds, Plant};
 use crate::jobs::study::complete;
 use crate::jobs::study::load::{LoadQuestion, LoadStudy};
+use crate::model::Limits;
 use crate::scenario::Scenario;
 
 /// Power against the load.
@@ -23,13 +24,13 @@ pub struct LoadTask {
     pub per_decade: usize,
     /// Frequencies (Hz) among which the best one is looked for under each load; their number plays no role.
     pub window: Option<Hertz>,
-    /// What must be kept.
-    pub limits: ChosenLimits,
+    /// What must be kept; the voltage by the ceramic where none is given.
+    pub limits: Limits,
 }
 
 impl Default for LoadTask {
     fn default() -> Self {
-        Self { from: None, to: None, per_decade: 10, window: None, limits: ChosenLimits::default() }
+        Self { from: None, to: None, per_decade: 10, window: None, limits: Limits::default() }
     }
 }
 
@@ -60,7 +61,7 @@ impl LoadTask {
         let about = LoadQuestion::about(scenario, window)?;
         let low = self.from.unwrap_or(about.range.0);
         let range = (low, self.to.unwrap_or(if self.from.is_some() { 1e6 * low } else { about.range.1 }));
-        let limits = self.limits.complete(&about.scenario)?;
+        let limits = self.limits.completed(&about.scenario.base());
         let bounds = Bounds::new(&plant, limits)?;
         let mut study = LoadStudy::new(LoadQuestion { range, per_decade: self.per_decade, limits, ..about })?;
         complete(&mut study);

@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 use super::Answer;
 use crate::jobs::RequestError;
 use crate::jobs::request::read;
-use crate::model::{Device, ElectricalScaling, ModelError, ParameterSet};
+use crate::model::{Device, ElectricalScaling, Limits, ModelError, ParameterSet};
 use crate::scenario::{ModelChoice, Scenario};
 
 mod find;
@@ -18,7 +18,7 @@ mod trust;
 
 pub use find::{FindAnswer, FindTask};
 pub use harvest::{HarvestAnswer, HarvestTask};
-pub use limits::{ChosenLimits, LimitsAnswer};
+pub use limits::LimitsAnswer;
 pub use load::{LoadAnswer, LoadTask};
 pub use materials::{MaterialsAnswer, MaterialsTask};
 pub use trust::{TrustAnswer, TrustTask};
@@ -98,8 +98,8 @@ pub enum Task {
     Load(LoadTask),
     /// The ceramics side by side.
     Materials(MaterialsTask),
-    /// Its limits.
-    Limits(ChosenLimits),
+    /// Its limits; the voltage by its ceramic where none is given.
+    Limits(Limits),
     /// How far the model is to be trusted.
     Trust(TrustTask),
     /// A better design.
@@ -169,7 +169,7 @@ impl DesignRequest {
             Task::Harvest(task) => DesignAnswer::Harvest(Box::new(task.answer(scenario)?)),
             Task::Load(task) => DesignAnswer::Load(task.answer(scenario)?),
             Task::Materials(task) => DesignAnswer::Materials(task.answer(&scenario)?),
-            Task::Limits(task) => DesignAnswer::Limits(task.answer(&scenario)?),
+            Task::Limits(limits) => DesignAnswer::Limits(LimitsAnswer::new(*limits, &scenario)?),
             Task::Trust(task) => DesignAnswer::Trust(task.answer(&scenario)?),
             Task::Find(task) => DesignAnswer::Find(Box::new(task.answer(scenario)?)),
         };

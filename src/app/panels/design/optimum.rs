@@ -1,0 +1,26 @@
+//! The best load among the motions reached.
+
+use crate::jobs::design::Bounds;
+use crate::jobs::design::load::{LoadPoint, best};
+use crate::jobs::study::load::LoadStudy;
+
+/// The best of the motions reached, of all and of those that keep the limits.
+#[derive(Clone, Copy)]
+pub(super) struct Optimum {
+    pub of_all: LoadPoint,
+    pub within_limits: Option<LoadPoint>,
+}
+
+impl Optimum {
+    /// None when no motion lasts.
+    pub(super) fn of(study: &LoadStudy, bounds: Option<Bounds>) -> Option<Self> {
+        let points = study.reached().iter().flatten().copied();
+        let keeps = |point: &LoadPoint| bounds.is_none_or(|bounds| bounds.allows(point.v_peak, point.tip));
+        Some(Self { of_all: best(points.clone())?, within_limits: best(points.filter(keeps)) })
+    }
+
+    /// The one to recommend.
+    pub(super) fn to_use(self) -> LoadPoint {
+        self.within_limits.unwrap_or(self.of_all)
+    }
+}
