@@ -106,7 +106,7 @@ mod tests {
         }
         // Half of the gap is closed at 1.5 Hz; without magnets there is no gap.
         let near = vec![point(1.0, 1.0, 0.25 * gap), point(2.0, 1.0, 0.75 * gap)];
-        let parts = bounds.powers_within(&[near.clone()]);
+        let parts = bounds.powers_within(std::slice::from_ref(&near));
         assert!(parts.len() == 1 && (parts[0][1][0] - 1.5).abs() < 1e-12, "{parts:?}");
         assert!(!bounds.allows(1.0, near[1].tip) && bounds.without_magnets().allows(1.0, near[1].tip));
         assert!(bounds.powers_within(&[vec![point(1.0, 11.0, 0.0)]]).is_empty());
