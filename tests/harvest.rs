@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use harvester_lab::dynamics::{Balance, Motion};
+use harvester_lab::dynamics::{Balance, Motion, Orbit};
 use harvester_lab::jobs::design::linear::{linear_at_its_best, linear_curve};
 use harvester_lab::jobs::design::{Plant, operating};
 use harvester_lab::model::limits::Standing;
@@ -166,6 +166,11 @@ fn the_linear_device_is_its_closed_form_and_its_best_load_the_admittance() -> Te
     assert!((found.power / closed - 1.0).abs() < 1e-9);
     // The same motion integrated.
     let balance = Balance::of(&bare, &response.state(0.0), 1)?.ok_or("it lasts")?;
+    let orbit = Orbit::find(&bare, None, 1)?.measures;
+    let slope = found.demand.slope.ok_or("a slope")?;
+    for (a, b) in [(slope, balance.slope), (slope, orbit.slope), (found.demand.v_peak, orbit.v_peak)] {
+        assert!((a / b - 1.0).abs() < 1e-7, "{a} {b}");
+    }
     for (a, b) in
         [(found.input, balance.input), (found.viscous, balance.viscous), (found.power, balance.electrical)]
     {

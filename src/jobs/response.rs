@@ -30,6 +30,8 @@ pub struct ResponsePoint {
     pub tip: (f64, f64),
     /// Largest |v| (V).
     pub v_peak: f64,
+    /// Largest |slope| at the tip (rad).
+    pub slope: f64,
     /// Modulus of the largest multiplier over the branch's period.
     pub multiplier: f64,
 }
@@ -157,6 +159,7 @@ fn point(point: &BranchPoint) -> ResponsePoint {
         power: measures.power,
         tip: (measures.tip_min, measures.tip_max),
         v_peak: measures.v_peak,
+        slope: measures.slope,
         multiplier: point.multipliers.first().map_or(0.0, |mu| mu.norm()),
     }
 }

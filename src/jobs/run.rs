@@ -169,6 +169,7 @@ fn whole_run(trajectory: &Trajectory, system: &ReducedSystem) -> Option<Summary>
         dv_dt_peak: 0.0,
         tip_min: f64::INFINITY,
         tip_max: f64::NEG_INFINITY,
+        slope: 0.0,
         v_peak_whole: 0.0,
     };
     const SAMPLES: usize = 2000;
@@ -179,6 +180,8 @@ fn whole_run(trajectory: &Trajectory, system: &ReducedSystem) -> Option<Summary>
         summary.dv_dt_peak = summary.dv_dt_peak.max(system.voltage_rate(state).abs());
         summary.tip_min = summary.tip_min.min(tip);
         summary.tip_max = summary.tip_max.max(tip);
+        let slopes = system.modes.iter().zip(state).map(|(mode, q)| mode.tip_slope * q);
+        summary.slope = summary.slope.max(slopes.sum::<f64>().abs());
     });
     summary.v_rms = summary.v_rms.sqrt();
     summary.v_peak_whole = summary.v_peak;

@@ -6,7 +6,9 @@ use harvester_lab::jobs::design::{Bounds, Plant, operating};
 use harvester_lab::jobs::solve;
 use harvester_lab::jobs::study::complete;
 use harvester_lab::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
-use harvester_lab::model::Limits;
+use harvester_lab::jobs::study::load::{LoadQuestion, LoadStudy};
+use harvester_lab::model::{Limits, ParameterSet};
+use harvester_lab::scenario::Scenario;
 
 use crate::{TestResult, figure_9};
 
@@ -49,5 +51,29 @@ fn requests_tell_what_keeps_the_limits() -> TestResult {
     let bad = solve(&format!(r#"{{"task":"load",{device},"limits":{{"gap":1.5}}}}"#));
     let said = bad.err().ok_or("refused")?;
     assert!(said.contains("limits.gap") && said.contains("1.5"), "{said}");
+    Ok(())
+}
+
+#[test]
+fn every_load_keeps_the_limits_that_its_motion_keeps_the_slope_included() -> TestResult {
+    // Without magnets the tip's slope, 1.38 times its deflection in mode 1, meets its 0.3 first.
+    let parameters = ParameterSet { c0: 0.0, alpha: 1e-3, beta: 0.015, omega: 3.6, ..Default::default() };
+    let scenario = Scenario { parameters, ..Default::default() };
+    let (plant, limits) = (Plant::new(&scenario)?, Limits::default());
+    let bounds = Bounds::new(&plant, limits)?;
+    let mut study = LoadStudy::new(LoadQuestion { per_decade: 2, ..LoadQuestion::about(scenario, None)? })?;
+    complete(&mut study);
+    let mut kept = 0;
+    for point in study.reached().iter().flatten() {
+        let there = operating(&plant.with_resistance(point.resistance)?.scenario)?;
+        let demand = there.reached.harvest.ok_or("it lasts")?.demand;
+        let slope = demand.slope.ok_or("a slope")?;
+        assert!((point.slope / slope - 1.0).abs() < 1e-4, "{point:?} {slope}");
+        assert_eq!(bounds.allows(&point.asked()), limits.allow(&demand, bounds.gap), "{point:?}");
+        // Deflection alone would allow all of them.
+        assert!(demand.tip.1 < limits.deflection, "{demand:?}");
+        kept += usize::from(bounds.allows(&point.asked()));
+    }
+    assert!(kept > 0 && kept < study.reached().len(), "{kept}");
     Ok(())
 }

@@ -76,9 +76,9 @@ struct Reader<'a> {
     /// Input, viscous, electrical power and v^2.
     integrals: [f64; 4],
     duration: f64,
-    slope: f64,
     tip: [Highest; 2],
     voltage: [Highest; 2],
+    slope: [Highest; 2],
     state: Vec<f64>,
     workspace: Workspace,
 }
@@ -91,9 +91,9 @@ impl<'a> Reader<'a> {
             weights: gauss_legendre(NODES).1,
             integrals: [0.0; 4],
             duration: 0.0,
-            slope: 0.0,
             tip: both(Scalar::Tip),
             voltage: both(Scalar::Voltage),
+            slope: both(Scalar::TipSlope),
             state: Vec::new(),
             workspace: Workspace::default(),
         }
@@ -104,6 +104,8 @@ impl<'a> Reader<'a> {
         let voltage = step.tables.voltage.at_nodes(step.start, step.rest);
         self.tip.iter_mut().for_each(|highest| highest.see(step, step.tip));
         self.voltage.iter_mut().for_each(|highest| highest.see(step, &voltage));
+        let slope = step.tables.tip_slope.at_nodes(step.start, step.rest);
+        self.slope.iter_mut().for_each(|highest| highest.see(step, &slope));
         let rest = StepRest::new(step.rest, length);
         self.state.clear();
         self.state.extend_from_slice(step.start);
@@ -123,8 +125,6 @@ impl<'a> Reader<'a> {
             {
                 *integral += weight * length * value;
             }
-            let slopes = self.system.modes.iter().zip(state).map(|(mode, q)| mode.tip_slope * q);
-            self.slope = self.slope.max(slopes.sum::<f64>().abs());
         }
         self.duration += length;
     }
@@ -132,16 +132,16 @@ impl<'a> Reader<'a> {
     fn balance(&self, propagator: &super::propagator::Propagator, gained: f64) -> Balance {
         let [input, viscous, electrical, square] = self.integrals.map(|integral| integral / self.duration);
         let [high, low] = self.tip.each_ref().map(|highest| highest.value(propagator));
-        let [up, down] = self.voltage.each_ref().map(|highest| highest.value(propagator));
+        let largest = |both: &[Highest; 2]| both[0].value(propagator).max(both[1].value(propagator));
         Balance {
             input,
             viscous,
             electrical,
             stored: gained / self.duration,
             v_rms: square.sqrt(),
-            v_peak: up.max(down),
+            v_peak: largest(&self.voltage),
             tip: (-low, high),
-            slope: self.slope,
+            slope: largest(&self.slope),
         }
     }
 }

@@ -26,6 +26,8 @@ pub(super) enum Scalar {
     Voltage,
     /// dv/dt (V per dimensionless time).
     VoltageRate,
+    /// Slope at the tip (rad).
+    TipSlope,
 }
 
 /// The highest value of a scalar, or of its negative.
@@ -137,6 +139,10 @@ impl Highest {
         part.apply(&state, rest.at(place), &mut rate);
         let (value, slope) = match self.scalar {
             Scalar::Tip => (state[..n].iter().sum(), state[n..2 * n].iter().sum()),
+            Scalar::TipSlope => {
+                let along = |part_of: &[f64]| part.tip_slopes.iter().zip(part_of).map(|(a, b)| a * b).sum();
+                (along(&state[..n]), along(&state[n..2 * n]))
+            }
             Scalar::Voltage => (state[2 * n], rate[2 * n]),
             Scalar::VoltageRate => {
                 // R acts on the voltage through the velocities only.

@@ -234,6 +234,7 @@ impl Inquiry {
             v_peak: reached.measures.map(|measures| measures.v_peak),
             power: reached.measures.map(|measures| measures.power),
             tip_over_gap: reached.measures.map(|measures| (measures.tip_min / gap, measures.tip_max / gap)),
+            slope: reached.measures.map(|measures| measures.slope),
             peaks,
             basic,
             rests_on,

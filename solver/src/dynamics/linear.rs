@@ -17,6 +17,8 @@ pub struct LinearPart {
     inverse_mass: Vec<f64>,
     drive: Vec<f64>,
     theta: Vec<f64>,
+    /// phi_k'(1), the slopes of the modes at the tip.
+    pub(super) tip_slopes: Vec<f64>,
     mutual_damping: f64,
     inverse_capacitance: f64,
     kappa: f64,
@@ -46,6 +48,7 @@ impl LinearPart {
             drive: modes.iter().map(|mode| p.omega * p.omega * mode.eta1 / mode.eta2).collect(),
             inverse_mass,
             theta: system.theta.clone(),
+            tip_slopes: modes.iter().map(|mode| mode.tip_slope).collect(),
             mutual_damping: p.alpha * system.c1,
             inverse_capacitance: 1.0 / p.c,
             kappa: p.kappa,

@@ -163,12 +163,15 @@ pub struct Cell {
     pub tip: (f64, f64),
     /// Largest |v| (V); 0 when the motion ended.
     pub v_peak: f64,
+    /// Largest |slope| at the tip (rad); 0 when the motion ended.
+    pub slope: f64,
 }
 
 impl Cell {
-    /// What the motion asks of the device, its slope left open; `None` when it ended.
+    /// What the motion asks of the device; `None` when it ended.
     pub fn demand(&self) -> Option<Demand> {
-        self.lasts().then_some(Demand { v_peak: self.v_peak, tip: self.tip, slope: None })
+        let Self { v_peak, tip, slope, .. } = *self;
+        self.lasts().then_some(Demand { v_peak, tip, slope: Some(slope) })
     }
 
     /// Whether the motion goes on, so that it has means.
@@ -184,10 +187,10 @@ impl Reached {
         match self.measures {
             Some(measures) => {
                 let tip = (measures.tip_min, measures.tip_max);
-                let Measures { v_rms, power, v_peak, .. } = measures;
-                Cell { motion, v_rms, power, tip, v_peak }
+                let Measures { v_rms, power, v_peak, slope, .. } = measures;
+                Cell { motion, v_rms, power, tip, v_peak, slope }
             }
-            None => Cell { motion, v_rms: 0.0, power: 0.0, tip: (0.0, 0.0), v_peak: 0.0 },
+            None => Cell { motion, v_rms: 0.0, power: 0.0, tip: (0.0, 0.0), v_peak: 0.0, slope: 0.0 },
         }
     }
 }

@@ -32,6 +32,8 @@ pub struct Measures {
     pub tip_max: f64,
     /// Largest |v| (V).
     pub v_peak: f64,
+    /// Largest |slope| at the tip from equilibrium (rad).
+    pub slope: f64,
 }
 
 /// A periodic motion of a system.
@@ -165,6 +167,8 @@ pub(super) struct Observer {
     highest: Highest,
     /// Of v and of -v.
     voltage: [Highest; 2],
+    /// Of the slope at the tip and of its negative.
+    slope: [Highest; 2],
     /// From the first step.
     propagator: Option<Propagator>,
     /// Logarithm of the determinant of the map's derivative.
@@ -180,6 +184,7 @@ impl Default for Observer {
             lowest: Highest::new(Scalar::Tip, -1.0),
             highest: Highest::new(Scalar::Tip, 1.0),
             voltage: [1.0, -1.0].map(|sign| Highest::new(Scalar::Voltage, sign)),
+            slope: [1.0, -1.0].map(|sign| Highest::new(Scalar::TipSlope, sign)),
             propagator: None,
             logarithm: 0.0,
         }
@@ -195,18 +200,21 @@ impl Observer {
         self.lowest.see(step, step.tip);
         self.highest.see(step, step.tip);
         self.voltage.iter_mut().for_each(|highest| highest.see(step, &voltage));
+        let slope = step.tables.tip_slope.at_nodes(step.start, step.rest);
+        self.slope.iter_mut().for_each(|highest| highest.see(step, &slope));
     }
 
     pub(super) fn measures(&self, kappa: f64) -> Measures {
         // The steps are equally long, so the mean is that of their means.
         let mean = self.square / self.steps;
-        let (tip_min, tip_max, v_peak) = match &self.propagator {
+        let (tip_min, tip_max, v_peak, slope) = match &self.propagator {
             Some(propagator) => {
-                let [up, down] = self.voltage.each_ref().map(|highest| highest.value(propagator));
-                (-self.lowest.value(propagator), self.highest.value(propagator), up.max(down))
+                let largest = |both: &[Highest; 2]| both[0].value(propagator).max(both[1].value(propagator));
+                let (low, high) = (-self.lowest.value(propagator), self.highest.value(propagator));
+                (low, high, largest(&self.voltage), largest(&self.slope))
             }
-            None => (f64::INFINITY, f64::NEG_INFINITY, 0.0),
+            None => (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0.0),
         };
-        Measures { v_rms: mean.sqrt(), power: kappa * mean, tip_min, tip_max, v_peak }
+        Measures { v_rms: mean.sqrt(), power: kappa * mean, tip_min, tip_max, v_peak, slope }
     }
 }

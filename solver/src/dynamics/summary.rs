@@ -25,6 +25,8 @@ pub struct Summary {
     pub tip_min: f64,
     /// Highest tip displacement, in beam lengths.
     pub tip_max: f64,
+    /// Largest |slope| at the tip from equilibrium (rad).
+    pub slope: f64,
     /// Largest |v| of the whole run (V); before the window it is read at the nodes of the steps, which may miss some
     /// per cent of a lonely peak.
     pub v_peak_whole: f64,
@@ -49,10 +51,11 @@ pub struct Collector {
     duration: f64,
     reached: f64,
     v_peak_whole: f64,
-    /// Of v and of -v, of dv/dt and of -dv/dt, of s and of -s.
+    /// Of v and of -v, of dv/dt and of -dv/dt, of s and of -s, of the slope and of its negative.
     voltage: [Highest; 2],
     rate: [Highest; 2],
     tip: [Highest; 2],
+    slope: [Highest; 2],
     envelope: Envelope,
 }
 
@@ -71,6 +74,7 @@ impl Collector {
             voltage: both(Scalar::Voltage),
             rate: both(Scalar::VoltageRate),
             tip: both(Scalar::Tip),
+            slope: both(Scalar::TipSlope),
             envelope: Envelope { width: t_end / slices as f64, slices: Vec::with_capacity(slices) },
         }
     }
@@ -89,9 +93,13 @@ impl Collector {
             return;
         }
         let rate = step.tables.voltage_rate.at_nodes(step.start, step.rest);
-        for (highest, values) in
-            [(&mut self.voltage, &voltage), (&mut self.rate, &rate), (&mut self.tip, step.tip)]
-        {
+        let slope = step.tables.tip_slope.at_nodes(step.start, step.rest);
+        for (highest, values) in [
+            (&mut self.voltage, &voltage),
+            (&mut self.rate, &rate),
+            (&mut self.tip, step.tip),
+            (&mut self.slope, &slope),
+        ] {
             for highest in highest {
                 highest.see(step, values);
             }
@@ -126,6 +134,7 @@ impl Collector {
                 dv_dt_peak: largest(&self.rate),
                 tip_min: -self.tip[1].value(propagator),
                 tip_max: self.tip[0].value(propagator),
+                slope: largest(&self.slope),
                 v_peak_whole: self.v_peak_whole.max(v_peak),
             }
         })

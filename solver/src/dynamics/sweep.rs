@@ -68,6 +68,8 @@ pub struct SweepPoint {
     pub power: f64,
     /// Lowest and highest tip displacement there, in beam lengths.
     pub tip: (f64, f64),
+    /// Largest |slope| at the tip there (rad).
+    pub slope: f64,
     /// Excitation periods after which the stroboscopic points repeat; `None` when they do not, or are too few.
     pub period: Option<usize>,
     /// Whether the motion escaped or touched, or there is no such device; the other numbers are then zero.
@@ -141,6 +143,7 @@ impl Held {
             v_peak: 0.0,
             power: 0.0,
             tip: (0.0, 0.0),
+            slope: 0.0,
             period: None,
             ended: true,
             restarted: false,
@@ -180,6 +183,7 @@ fn hold(system: &ReducedSystem, from: &[f64], dwell: Dwell) -> Result<Held, Inte
         v_peak: summary.map_or(0.0, |summary| summary.v_peak),
         power: system.parameters.kappa * v_rms * v_rms,
         tip: summary.map_or((0.0, 0.0), |summary| (summary.tip_min, summary.tip_max)),
+        slope: summary.map_or(0.0, |summary| summary.slope),
         period: repeats.and_then(|found| found.period),
         ended: !completed,
         restarted: false,

@@ -62,6 +62,8 @@ pub struct StepTables {
     pub voltage: NodeMap,
     /// dv/dt at the nodes.
     pub voltage_rate: NodeMap,
+    /// Slope at the tip at the nodes.
+    pub tip_slope: NodeMap,
     /// Change of s at the nodes when R is 1, and when R is the time since the start: the first guess of the
     /// iteration.
     pub guess: [NodeValues; 2],
@@ -97,6 +99,7 @@ impl StepTables {
             tip: empty(),
             voltage: empty(),
             voltage_rate: empty(),
+            tip_slope: empty(),
             guess: [[0.0; NODES]; 2],
             gain: 0.0,
             end_gain: 0.0,
@@ -107,12 +110,13 @@ impl StepTables {
         for (column, out) in tables.end.chunks_exact_mut(stride).enumerate() {
             propagator.end_column(column, &mut out[..dimension]);
         }
-        let mut rows = vec![vec![0.0; extended]; 3];
+        let mut rows = vec![vec![0.0; extended]; 4];
         rows[0][..n].fill(1.0);
         rows[1][2 * n] = 1.0;
+        rows[3][..n].copy_from_slice(&part.tip_slopes);
         let (voltage, rate) = rows.split_at_mut(2);
         part.apply_transposed(&voltage[1], &mut rate[0]);
-        let maps = [&mut tables.tip, &mut tables.voltage, &mut tables.voltage_rate];
+        let maps = [&mut tables.tip, &mut tables.voltage, &mut tables.voltage_rate, &mut tables.tip_slope];
         for (map, row) in maps.into_iter().zip(&rows) {
             propagator.read_at_nodes(row, map);
         }

@@ -215,6 +215,8 @@ pub struct Verdict {
     pub power: Option<f64>,
     /// Lowest and highest tip displacement over the gap s0 (dimensionless); contact is at -1.
     pub tip_over_gap: Option<(f64, f64)>,
+    /// Largest |slope| at the tip from equilibrium (rad).
+    pub slope: Option<f64>,
     /// Strongest lines of the voltage's spectrum, by descending amplitude.
     pub peaks: Vec<Peak>,
     /// On a torus, the measured second basic frequency (dimensionless); the first is omega.

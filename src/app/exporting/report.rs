@@ -106,7 +106,7 @@ impl App {
             return Vec::new();
         };
         let tip = (summary.tip_min, summary.tip_max);
-        let demand = Demand { v_peak: summary.v_peak, tip, slope: None };
+        let demand = Demand { v_peak: summary.v_peak, tip, slope: Some(summary.slope) };
         let checks = safety.checks(&demand);
         checks.iter().map(|check| (in_words(check), check.standing == Standing::Within)).collect()
     }

@@ -165,7 +165,7 @@ mod tests {
     fn a_class_has_its_colour_of_the_charts_and_two_of_a_class_differ() {
         let tokens = theme::tokens_in(&egui::Context::default());
         let of = |number: usize, motion: Motion| {
-            let cell = Cell { motion, v_rms: 1.0, power: 1.0, tip: (-1.0, 1.0), v_peak: 1.0 };
+            let cell = Cell { motion, v_rms: 1.0, power: 1.0, tip: (-1.0, 1.0), v_peak: 1.0, slope: 0.0 };
             Attractor { cell, start: vec![0.0; 5], number, cells: 1, fraction: 0.2 }
         };
         let (one, two) = (Motion::Periodic { periods: 1 }, Motion::Periodic { periods: 2 });

@@ -97,12 +97,16 @@ fn broken(context: &Context<'_>, shown: &Shown, verdict: Option<&Verdict>) -> Ve
     let summary = shown.run.summary.as_ref().filter(|_| lasts);
     let gap = shown.run.system.equilibrium.gap;
     let demand = summary.map(|summary| {
-        let (v_peak, tip) = verdict
-            .and_then(|verdict| Some((verdict.v_peak?, verdict.tip_over_gap?)))
-            .map_or((summary.v_peak, (summary.tip_min, summary.tip_max)), |(v_peak, (low, high))| {
-                (v_peak, (gap * low, gap * high))
-            });
-        Demand { v_peak, tip, slope: None }
+        let own = || Demand {
+            v_peak: summary.v_peak,
+            tip: (summary.tip_min, summary.tip_max),
+            slope: Some(summary.slope),
+        };
+        let found = verdict.and_then(|verdict| {
+            let (low, high) = verdict.tip_over_gap?;
+            Some(Demand { v_peak: verdict.v_peak?, tip: (gap * low, gap * high), slope: verdict.slope })
+        });
+        found.unwrap_or_else(own)
     });
     match (Safety::of(context.view, context.session), demand) {
         (Some(safety), Some(demand)) => safety.broken(&demand),

@@ -15,6 +15,17 @@ pub struct Bounds {
     pub units: Units,
 }
 
+/// What a motion asks of a device, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Asked {
+    /// Largest |v| (V).
+    pub v_peak: f64,
+    /// Lowest and highest tip displacement (mm).
+    pub tip: (f64, f64),
+    /// Largest |slope| at the tip (rad).
+    pub slope: f64,
+}
+
 impl Bounds {
     /// Of `plant`.
     ///
@@ -30,19 +41,20 @@ impl Bounds {
         Self { gap: None, ..*self }
     }
 
-    fn demand(&self, v_peak: f64, (low, high): (f64, f64)) -> Demand {
+    fn demand(&self, asked: &Asked) -> Demand {
+        let Asked { v_peak, tip: (low, high), slope } = *asked;
         let beam = self.units.millimetres(1.0);
-        Demand { v_peak, tip: (low / beam, high / beam), slope: None }
+        Demand { v_peak, tip: (low / beam, high / beam), slope: Some(slope) }
     }
 
-    /// Whether a motion keeps them: its largest voltage (V) and its range of the tip (mm).
-    pub fn allows(&self, v_peak: f64, tip: (f64, f64)) -> bool {
-        self.limits.allow(&self.demand(v_peak, tip), self.gap)
+    /// Whether a motion keeps them.
+    pub fn allows(&self, asked: &Asked) -> bool {
+        self.limits.allow(&self.demand(asked), self.gap)
     }
 
     /// What is left to the nearest limit (dimensionless, of that limit); negative beyond it.
-    pub fn margin(&self, v_peak: f64, tip: (f64, f64)) -> f64 {
-        let checks = self.limits.checks(&self.demand(v_peak, tip), self.gap);
+    pub fn margin(&self, asked: &Asked) -> f64 {
+        let checks = self.limits.checks(&self.demand(asked), self.gap);
         // What is no number stays so.
         let least = |least: f64, margin: f64| if least <= margin || least.is_nan() { least } else { margin };
         checks.iter().map(|check| check.margin).fold(f64::INFINITY, least)
@@ -56,7 +68,7 @@ impl Bounds {
             let mut part = Vec::new();
             let mut before: Option<([f64; 2], f64)> = None;
             for point in piece {
-                let (place, margin) = ([point.frequency, point.power], self.margin(point.v_peak, point.tip));
+                let (place, margin) = ([point.frequency, point.power], self.margin(&point.asked()));
                 if let Some((last, left)) = before
                     && (left >= 0.0) != (margin >= 0.0)
                 {
@@ -92,6 +104,7 @@ mod tests {
             v_peak,
             power: 2.0 * frequency,
             tip: (-tip, tip),
+            slope: 0.0,
             v_rms: 0.0,
             power_per_g2: 0.0,
         };
@@ -108,7 +121,10 @@ mod tests {
         let near = vec![point(1.0, 1.0, 0.25 * gap), point(2.0, 1.0, 0.75 * gap)];
         let parts = bounds.powers_within(std::slice::from_ref(&near));
         assert!(parts.len() == 1 && (parts[0][1][0] - 1.5).abs() < 1e-12, "{parts:?}");
-        assert!(!bounds.allows(1.0, near[1].tip) && bounds.without_magnets().allows(1.0, near[1].tip));
+        let asked = near[1].asked();
+        assert!(!bounds.allows(&asked) && bounds.without_magnets().allows(&asked));
+        // The slope is the last to be met: 0.3 rad.
+        assert!(!bounds.without_magnets().allows(&Asked { slope: 0.31, ..asked }));
         assert!(bounds.powers_within(&[vec![point(1.0, 11.0, 0.0)]]).is_empty());
         Ok(())
     }

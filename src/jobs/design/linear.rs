@@ -35,7 +35,6 @@ pub fn linear_balance(system: &ReducedSystem) -> Result<Balance, DesignError> {
         input -= mode.eta1 * omega * q.im;
         viscous += mode.eta2 * mode.omega * mode.omega * square * q.norm_sqr();
     }
-    let slopes = system.modes.iter().zip(response.displacements.iter()).map(|(mode, q)| q * mode.tip_slope);
     let v_peak = response.voltage.norm();
     Ok(Balance {
         input: 0.5 * square * p.beta * input,
@@ -45,16 +44,22 @@ pub fn linear_balance(system: &ReducedSystem) -> Result<Balance, DesignError> {
         v_rms: v_peak * std::f64::consts::FRAC_1_SQRT_2,
         v_peak,
         tip: (-tip, tip),
-        slope: slopes.sum::<nalgebra::Complex<f64>>().norm(),
+        slope: slope(system, &response),
     })
+}
+
+/// Amplitude of the slope at the tip (rad).
+fn slope(system: &ReducedSystem, response: &LinearResponse) -> f64 {
+    let slopes = system.modes.iter().zip(response.displacements.iter()).map(|(mode, q)| q * mode.tip_slope);
+    slopes.sum::<nalgebra::Complex<f64>>().norm()
 }
 
 /// The power of the linear device over frequency.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LinearCurve {
-    /// Frequency (Hz), v_rms (V), power (W) and tip amplitude (mm), ascending in frequency and denser about the
-    /// resonances.
-    pub points: Vec<[f64; 4]>,
+    /// Frequency (Hz), v_rms (V), power (W), amplitudes of the tip (mm) and of its slope (rad), ascending in frequency
+    /// and denser about the resonances.
+    pub points: Vec<[f64; 5]>,
     /// Frequency (Hz) and power (W) of the highest peak.
     pub peak: [f64; 2],
     /// Where the power is at least half of that about it (Hz), as far as the window goes.
@@ -69,11 +74,11 @@ pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<L
     let system = plant.without_magnets()?;
     let beta = system.parameters.beta;
     let units = &plant.units;
-    let at = |omega: f64| -> Result<[f64; 4], DesignError> {
+    let at = |omega: f64| -> Result<[f64; 5], DesignError> {
         let response = LinearResponse::new(&system.with_excitation(beta, omega)?)?;
         let v_rms = response.voltage.norm() * std::f64::consts::FRAC_1_SQRT_2;
         let tip = units.millimetres(response.tip().norm());
-        Ok([units.hertz(omega), v_rms, plant.watts(v_rms), tip])
+        Ok([units.hertz(omega), v_rms, plant.watts(v_rms), tip, slope(&system, &response)])
     };
     // An undamped device has no steady state at its resonance.
     let power = |omega: f64| at(omega).map_or(f64::INFINITY, |point| point[2]);

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::linear::linear_peak;
-use super::{Bounds, DesignError, HarvestPoint, Plant};
+use super::{Asked, Bounds, DesignError, HarvestPoint, Plant};
 use crate::dynamics::motion::{Cell, Horizon};
 use crate::dynamics::orbit::Measures;
 use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError, reach};
@@ -26,6 +26,8 @@ pub struct LoadPoint {
     pub power: f64,
     /// Lowest and highest tip displacement (mm).
     pub tip: (f64, f64),
+    /// Largest |slope| at the tip (rad).
+    pub slope: f64,
     /// Its class; unstable forced motions have period 1 as well.
     pub motion: Motion,
     /// Whether it attracts.
@@ -34,14 +36,21 @@ pub struct LoadPoint {
 
 impl LoadPoint {
     fn new(plant: &Plant, motion: Motion, stable: bool, measures: &Measures) -> Self {
-        let Measures { v_rms, v_peak, tip_min, tip_max, .. } = *measures;
+        let Measures { v_rms, v_peak, tip_min, tip_max, slope, .. } = *measures;
         let tip = (plant.units.millimetres(tip_min), plant.units.millimetres(tip_max));
-        Self { resistance: plant.resistance(), v_rms, v_peak, power: plant.watts(v_rms), tip, motion, stable }
+        let (resistance, power) = (plant.resistance(), plant.watts(v_rms));
+        Self { resistance, v_rms, v_peak, power, tip, slope, motion, stable }
+    }
+
+    /// What it asks of the device.
+    pub fn asked(&self) -> Asked {
+        let Self { v_peak, tip, slope, .. } = *self;
+        Asked { v_peak, tip, slope }
     }
 
     fn of_cell(plant: &Plant, cell: &Cell) -> Self {
-        let Cell { motion, v_rms, power, tip: (tip_min, tip_max), v_peak } = *cell;
-        let measures = Measures { v_rms, power, tip_min, tip_max, v_peak };
+        let Cell { motion, v_rms, power, tip: (tip_min, tip_max), v_peak, slope } = *cell;
+        let measures = Measures { v_rms, power, tip_min, tip_max, v_peak, slope };
         let stable = !matches!(motion, Motion::Escape { .. } | Motion::Contact { .. });
         Self::new(plant, motion, stable, &measures)
     }
@@ -141,6 +150,16 @@ pub struct Peak {
     pub v_peak: f64,
     /// Lowest and highest tip displacement (mm).
     pub tip: (f64, f64),
+    /// Largest |slope| at the tip (rad).
+    pub slope: f64,
+}
+
+impl Peak {
+    /// What it asks of the device.
+    pub fn asked(&self) -> Asked {
+        let Self { v_peak, tip, slope, .. } = *self;
+        Asked { v_peak, tip, slope }
+    }
 }
 
 /// The best frequency under a load.
@@ -184,11 +203,12 @@ pub fn best_frequency(
     };
     let points = curves.iter().flat_map(|curve| curve.points.iter().map(move |point| (curve.periods, point)));
     let stable = points.filter(|(_, point)| point.multiplier < 1.0).map(|(periods, point)| {
-        let HarvestPoint { frequency, power, v_peak, tip, .. } = HarvestPoint::of_branch(&plant, point);
-        Peak { frequency, power, periods, v_peak, tip }
+        let HarvestPoint { frequency, power, v_peak, tip, slope, .. } =
+            HarvestPoint::of_branch(&plant, point);
+        Peak { frequency, power, periods, v_peak, tip, slope }
     });
     let highest = |a: &Peak, b: &Peak| a.power.total_cmp(&b.power);
-    let within = stable.clone().filter(|peak| bounds.allows(peak.v_peak, peak.tip));
+    let within = stable.clone().filter(|peak| bounds.allows(&peak.asked()));
     Ok(BestFrequency {
         resistance,
         linear: [plant.units.hertz(omega), power],

@@ -20,7 +20,7 @@ pub mod trust;
 pub mod work;
 
 pub use band::Interval;
-pub use bounds::Bounds;
+pub use bounds::{Asked, Bounds};
 pub use error::DesignError;
 pub use harvest::{Harvest, Operating, operating};
 pub use plant::Plant;

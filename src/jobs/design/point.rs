@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Plant;
+use super::{Asked, Plant};
 use crate::dynamics::sweep::SweepPoint;
 use crate::jobs::response::ResponsePoint;
 
@@ -21,15 +21,19 @@ pub struct HarvestPoint {
     pub power_per_g2: f64,
     /// Lowest and highest tip displacement (mm).
     pub tip: (f64, f64),
+    /// Largest |slope| at the tip (rad).
+    pub slope: f64,
 }
 
 impl HarvestPoint {
-    /// From voltages (V), rms and peak, and the range of the tip (beam lengths) at omega (dimensionless).
+    /// From voltages (V), rms and peak, range of the tip (beam lengths) and largest slope (rad) at omega
+    /// (dimensionless).
     pub(in crate::jobs) fn new(
         plant: &Plant,
         omega: f64,
         (v_rms, v_peak): (f64, f64),
         tip: (f64, f64),
+        slope: f64,
     ) -> Self {
         let units = &plant.units;
         let power = plant.watts(v_rms);
@@ -41,25 +45,34 @@ impl HarvestPoint {
             power,
             power_per_g2: if acceleration > 0.0 { power / (acceleration * acceleration) } else { 0.0 },
             tip: (units.millimetres(tip.0), units.millimetres(tip.1)),
+            slope,
         }
     }
 
-    /// Of the linear device: frequency (Hz), root mean square of the voltage (V), power (W), amplitude of the tip (mm).
-    pub(in crate::jobs) fn of_linear(plant: &Plant, [frequency, v_rms, power, tip]: [f64; 4]) -> Self {
+    /// Of the linear device: frequency (Hz), root mean square of the voltage (V), power (W), amplitude of the
+    /// tip (mm), and of its slope (rad).
+    pub(in crate::jobs) fn of_linear(plant: &Plant, point: [f64; 5]) -> Self {
+        let [frequency, v_rms, power, tip, slope] = point;
         let omega = plant.units.omega(frequency);
         let tip = tip / plant.units.millimetres(1.0);
-        let point = Self::new(plant, omega, (v_rms, v_rms * std::f64::consts::SQRT_2), (-tip, tip));
+        let point = Self::new(plant, omega, (v_rms, v_rms * std::f64::consts::SQRT_2), (-tip, tip), slope);
         Self { frequency, power, ..point }
     }
 
     /// Of a value of a sweep over omega.
     pub(in crate::jobs) fn of_sweep(plant: &Plant, point: &SweepPoint) -> Self {
-        Self::new(plant, point.value, (point.v_rms, point.v_peak), point.tip)
+        Self::new(plant, point.value, (point.v_rms, point.v_peak), point.tip, point.slope)
     }
 
     /// Of a point of a branch over omega.
     pub(in crate::jobs) fn of_branch(plant: &Plant, point: &ResponsePoint) -> Self {
-        Self::new(plant, point.value, (point.v_rms, point.v_peak), point.tip)
+        Self::new(plant, point.value, (point.v_rms, point.v_peak), point.tip, point.slope)
+    }
+
+    /// What it asks of the device.
+    pub fn asked(&self) -> Asked {
+        let Self { v_peak, tip, slope, .. } = *self;
+        Asked { v_peak, tip, slope }
     }
 }
 

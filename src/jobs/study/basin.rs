@@ -209,7 +209,7 @@ mod tests {
 
     fn signature(motion: Motion) -> Signature {
         let (v_rms, power, tip) = (0.0, 0.0, (0.0, 0.0));
-        Signature { cell: Cell { motion, v_rms, power, tip, v_peak: 0.0 }, states: Vec::new() }
+        Signature { cell: Cell { motion, v_rms, power, tip, v_peak: 0.0, slope: 0.0 }, states: Vec::new() }
     }
 
     #[test]

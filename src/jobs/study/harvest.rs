@@ -204,7 +204,7 @@ impl Study for HarvestStudy {
                     let point = |omega| {
                         cell.map(|cell| {
                             let volts = (cell.v_rms, cell.v_peak);
-                            (cell.motion, HarvestPoint::new(&self.plant, omega, volts, cell.tip))
+                            (cell.motion, HarvestPoint::new(&self.plant, omega, volts, cell.tip, cell.slope))
                         })
                     };
                     let found = point(self.omega(index));

@@ -124,13 +124,12 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
         for (kind, name, points) in &curves {
             drawn.push((*kind, name, measure.line(points, side)));
             if *kind != Series::Unstable {
-                let demand = |point: &HarvestPoint| (point.v_peak, point.tip);
                 // The linear device has no magnets to touch.
                 let bounds = match (&safety, kind) {
                     (Some(Safety(bounds)), Series::Linear) => Some(bounds.without_magnets()),
                     (safety, _) => safety.as_ref().map(|safety| safety.0),
                 };
-                let over = beyond(bounds, points, &demand, &place(side));
+                let over = beyond(bounds, points, &HarvestPoint::asked, &place(side));
                 drawn.push((Series::Beyond, tr("beyond a limit"), over));
             }
         }

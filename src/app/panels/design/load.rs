@@ -112,9 +112,9 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
     drawn.push((Series::Best, tr("stable motions, best frequency"), stable.iter().map(crest).collect()));
     drawn.push((Series::Up, tr("reached"), reached.iter().map(place).collect()));
     let bounds = Safety::of(view, context.session).map(|safety| safety.0);
-    let over = beyond(bounds, &reached, &|point| (point.v_peak, point.tip), &place);
+    let over = beyond(bounds, &reached, &LoadPoint::asked, &place);
     drawn.push((Series::Beyond, tr("beyond a limit"), over));
-    let over = beyond(bounds, &stable, &|(_, peak)| (peak.v_peak, peak.tip), &crest);
+    let over = beyond(bounds, &stable, &|(_, peak)| peak.asked(), &crest);
     drawn.push((Series::Beyond, tr("beyond a limit"), over));
     let own = Plant::new(&view.scenario).map_or(f64::NAN, |plant| plant.resistance());
     let colour = theme::tokens(ui).ruler;

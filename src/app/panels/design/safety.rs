@@ -11,7 +11,7 @@ use crate::app::widgets::number::with_unit;
 use crate::app::widgets::plot_style;
 use crate::export::Pen;
 use crate::export::figure::Anchor;
-use crate::jobs::design::Bounds;
+use crate::jobs::design::{Asked, Bounds};
 use crate::model::limits::{Check, LimitKind, Standing};
 use crate::model::{Demand, Limits};
 
@@ -82,9 +82,6 @@ fn line(plot: &mut PlotUi<'_>, [left, at]: [f64; 2], name: &str) {
     }
 }
 
-/// Largest voltage (V), and lowest and highest tip displacement (mm).
-pub(super) type Asked = (f64, (f64, f64));
-
 /// Of `points`, those that go beyond the bounds, by what `demand` says of each.
 pub(super) fn beyond<T>(
     bounds: Option<Bounds>,
@@ -93,11 +90,7 @@ pub(super) fn beyond<T>(
     place: &dyn Fn(&T) -> PlotPoint,
 ) -> Vec<PlotPoint> {
     let Some(bounds) = bounds else { return Vec::new() };
-    let violates = |point: &&T| {
-        let (v_peak, tip) = demand(point);
-        !bounds.allows(v_peak, tip)
-    };
-    points.iter().filter(violates).map(place).collect()
+    points.iter().filter(|point| !bounds.allows(&demand(point))).map(place).collect()
 }
 
 /// A check in words: `tip closes 49 % of the gap`.

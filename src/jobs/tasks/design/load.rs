@@ -73,9 +73,7 @@ impl LoadTask {
             forced: study.forced().unwrap_or_default().to_vec(),
             reached: study.reached().to_vec(),
             reached_best: best(reached()),
-            reached_best_within_limits: best(
-                reached().filter(|point| bounds.allows(point.v_peak, point.tip)),
-            ),
+            reached_best_within_limits: best(reached().filter(|point| bounds.allows(&point.asked()))),
             best_frequency: study.best_frequencies().to_vec(),
         })
     }
