@@ -4,7 +4,7 @@ use harvester_lab::dynamics::{
     Branch, BranchEnd, Course, Instability, Orbit, Settings, Trajectory, critical_excitation, follow_branch,
     follow_doubled,
 };
-use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, Parameters, ReducedSystem};
+use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, Parameters, ReducedSystem, Shaking};
 
 type TestResult = Result<(), Box<dyn std::error::Error>>;
 
@@ -14,7 +14,7 @@ fn system(law: ForceLaw, beta: f64, omega: f64) -> Result<ReducedSystem, Box<dyn
 }
 
 fn course(parameter: Parameter, range: (f64, f64)) -> Course {
-    Course { parameter, range, periods: 1, upwards: true, most_points: 600 }
+    Course { parameter, shaking: Shaking::Amplitude, range, periods: 1, upwards: true, most_points: 600 }
 }
 
 fn kinds(branch: &Branch) -> Vec<Instability> {

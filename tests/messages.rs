@@ -6,7 +6,7 @@ use harvester_lab::dynamics::tongue::Window;
 use harvester_lab::dynamics::{Axis, Plane};
 use harvester_lab::jobs::design::work::DesignWork;
 use harvester_lab::jobs::work::{Finding, Work};
-use harvester_lab::model::{Parameter, ParameterSet};
+use harvester_lab::model::{Parameter, ParameterSet, Shaking};
 use harvester_lab::scenario::Scenario;
 use harvester_lab::theory::Resonance;
 use nanoserde::{DeBin, SerBin};
@@ -32,11 +32,17 @@ fn works() -> Vec<Work> {
         Work::Sweep {
             scenario: scenario(),
             parameter: Parameter::Omega,
+            shaking: Shaking::Amplitude,
             values: vec![25.3, 25.4],
             state,
             dwell: Dwell { discarded: 20, kept: 8 },
         },
-        Work::Response { scenario: scenario(), parameter: Parameter::Omega, range: (7.5, 8.6) },
+        Work::Response {
+            scenario: scenario(),
+            parameter: Parameter::Omega,
+            shaking: Shaking::Acceleration,
+            range: (7.5, 8.6),
+        },
         Work::Inspect { scenario: scenario() },
         Work::Line { scenario: scenario(), plane, line: Line { along: 0, at: 0.01 } },
         Work::Design(DesignWork::Operating { scenario: scenario() }),

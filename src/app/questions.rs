@@ -10,7 +10,7 @@ use crate::jobs::study::motion_chart::MotionQuestion;
 use crate::jobs::study::multiplier_chart::MultiplierQuestion;
 use crate::jobs::study::sweep::SweepQuestion;
 use crate::jobs::work::Work;
-use crate::model::{ModelError, Parameter, ParameterSet};
+use crate::model::{ModelError, Parameter, ParameterSet, Shaking};
 use crate::scenario::Scenario;
 
 /// Columns and rows of the chart of multipliers.
@@ -63,7 +63,8 @@ pub(super) fn sweep(view: &View, session: &Session) -> SweepQuestion {
     let parameter = view.sweep.parameter;
     let range = sweep_range(view, session);
     let scenario = with(&view.scenario, parameter, parameter.get(&ParameterSet::default()));
-    SweepQuestion { scenario, parameter, range, count: view.sweep.count, dwell: view.sweep.dwell }
+    let (count, dwell) = (view.sweep.count, view.sweep.dwell);
+    SweepQuestion { scenario, parameter, shaking: Shaking::Amplitude, range, count, dwell }
 }
 
 /// The response curves over the same range.
@@ -72,7 +73,7 @@ pub(super) fn response(view: &View, session: &Session) -> Work {
     let range = sweep_range(view, session);
     let anywhere = parameter.get(&ParameterSet::default());
     let scenario = Scenario { initial: None, ..with(&view.scenario, parameter, anywhere) };
-    Work::Response { scenario, parameter, range }
+    Work::Response { scenario, parameter, shaking: Shaking::Amplitude, range }
 }
 
 /// The bifurcation curves in the plane in view; `None` when it is empty.

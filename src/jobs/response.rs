@@ -7,7 +7,7 @@ use crate::dynamics::{
     Bifurcation, Branch, BranchEnd, BranchPoint, Course, Instability, Orbit, OrbitError, follow_branch,
     follow_doubled,
 };
-use crate::model::{ModelError, Parameter};
+use crate::model::{ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
 
 /// Most points of a branch.
@@ -58,7 +58,8 @@ pub struct ResponseCurve {
     pub end: String,
 }
 
-/// Follows the forced motion of the device of `scenario` while `parameter` goes through `range`, from the low end and,
+/// Follows the forced motion of the device of `scenario` while a number that is `moved`, the base shaken so, goes
+/// through `range`, from the low end and,
 /// where it does not come through, from the high end too; then the doubled branches.
 ///
 /// The forced motion at an end is the one that Newton's iteration reaches from the linear response there. Branches that
@@ -68,15 +69,15 @@ pub struct ResponseCurve {
 /// [`OrbitError`] when the device is not valid at the low end, or has no forced motion at either end.
 pub fn response(
     scenario: &Scenario,
-    parameter: Parameter,
+    moved: (Parameter, Shaking),
     range: (f64, f64),
 ) -> Result<Vec<ResponseCurve>, OrbitError> {
-    let from_low = forced(scenario, parameter, range, true);
+    let from_low = forced(scenario, moved, range, true);
     let through = from_low.as_ref().is_ok_and(|(branch, _)| {
         let last = branch.points.last().map(|point| point.value);
         branch.end == BranchEnd::Range && last.is_some_and(|last| same(last, range.1, range))
     });
-    let from_high = (!through).then(|| forced(scenario, parameter, range, false));
+    let from_high = (!through).then(|| forced(scenario, moved, range, false));
     let found: Vec<_> = match (from_low, from_high) {
         (Err(reason), None | Some(Err(_))) => return Err(reason),
         (low, high) => low.into_iter().chain(high.into_iter().flatten()).collect(),
@@ -90,15 +91,14 @@ pub fn response(
 
 fn forced(
     scenario: &Scenario,
-    parameter: Parameter,
+    (parameter, shaking): (Parameter, Shaking),
     range: (f64, f64),
     upwards: bool,
 ) -> Result<(Branch, Course), OrbitError> {
-    let mut set = scenario.parameters;
-    *parameter.get_mut(&mut set) = if upwards { range.0 } else { range.1 };
+    let set = shaking.at(&scenario.parameters, parameter, if upwards { range.0 } else { range.1 });
     let system = scenario.model.system(set)?;
     let orbit = Orbit::find(&system, None, 1)?;
-    let course = Course { parameter, range, periods: 1, upwards, most_points: MOST_POINTS };
+    let course = Course { parameter, shaking, range, periods: 1, upwards, most_points: MOST_POINTS };
     Ok((follow_branch(&system, &orbit.state, &course)?, course))
 }
 
@@ -185,7 +185,8 @@ mod tests {
     fn the_doubled_branch_of_figure_9_is_part_of_its_frequency_response() {
         let parameters = ParameterSet { alpha: 1e-4, beta: 0.01, omega: 8.0969, ..Default::default() };
         let scenario = Scenario { parameters, ..Default::default() };
-        let curves = response(&scenario, Parameter::Omega, (7.5, 8.8)).expect("a response");
+        let curves =
+            response(&scenario, (Parameter::Omega, Shaking::Amplitude), (7.5, 8.8)).expect("a response");
         assert_eq!(curves[0].periods, 1);
         // The motion of the figure, by interpolation on the stable doubled branch: 14.1783 V rms.
         let doubled = curves.iter().filter(|curve| curve.periods == 2);
@@ -205,7 +206,8 @@ mod tests {
         let model = ModelChoice { modes: 2, force: ForceLaw::Exact };
         let parameters = ParameterSet { alpha: 1e-3, beta: 7.5e-4, ..Default::default() };
         let scenario = Scenario { parameters, model, ..Default::default() };
-        let curves = response(&scenario, Parameter::Omega, (7.9, 8.8)).expect("a response");
+        let curves =
+            response(&scenario, (Parameter::Omega, Shaking::Amplitude), (7.9, 8.8)).expect("a response");
         let kinds =
             |curve: &ResponseCurve| curve.changes.iter().map(|change| change.kind).collect::<Vec<_>>();
         let found: Vec<_> = curves.iter().map(|curve| (curve.periods, kinds(curve))).collect();

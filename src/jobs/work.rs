@@ -12,7 +12,7 @@ use crate::dynamics::signature::Signature;
 use crate::dynamics::sweep::{Dwell, SweepPoint, sweep};
 use crate::dynamics::tongue::{Tongue, Window};
 use crate::dynamics::{Plane, largest_multipliers, trace_tongue};
-use crate::model::Parameter;
+use crate::model::{Parameter, Shaking};
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
@@ -48,6 +48,8 @@ pub enum Work {
         scenario: Scenario,
         /// What is swept.
         parameter: Parameter,
+        /// How the base is shaken meanwhile.
+        shaking: Shaking,
         /// Its values in the order in which they are visited.
         values: Vec<f64>,
         /// State carried over from the value before (length 2N + 1).
@@ -68,6 +70,8 @@ pub enum Work {
         scenario: Scenario,
         /// What changes.
         parameter: Parameter,
+        /// How the base is shaken meanwhile.
+        shaking: Shaking,
         /// Its lowest and highest value.
         range: (f64, f64),
     },
@@ -160,16 +164,17 @@ impl Work {
                 };
                 omegas.iter().map(column).collect::<Result<_, String>>().map(Finding::Columns)
             }
-            Self::Sweep { scenario, parameter, values, state, dwell } => {
+            Self::Sweep { scenario, parameter, shaking, values, state, dwell } => {
                 let (_, start) = scenario.validate().map_err(sentence)?;
                 let (set, model) = (&scenario.parameters, scenario.model);
-                let (points, state) = sweep(set, model, &start, *parameter, values, state.as_deref(), *dwell)
-                    .map_err(sentence)?;
+                let (moved, state) = ((*parameter, *shaking), state.as_deref());
+                let (points, state) =
+                    sweep(set, model, &start, moved, values, state, *dwell).map_err(sentence)?;
                 Ok(Finding::Sweep { points, state })
             }
             Self::Motions { plane, places } => plane.motions(places).map(Finding::Motions).map_err(sentence),
-            Self::Response { scenario, parameter, range } => {
-                response(scenario, *parameter, *range).map(Finding::Response).map_err(sentence)
+            Self::Response { scenario, parameter, shaking, range } => {
+                response(scenario, (*parameter, *shaking), *range).map(Finding::Response).map_err(sentence)
             }
             Self::Inspect { scenario } => {
                 inspect(scenario).map(|found| Finding::Inspection(Box::new(found))).map_err(sentence)

@@ -7,7 +7,7 @@ use harvester_lab::dynamics::floquet::multipliers;
 use harvester_lab::dynamics::{
     Course, Instability, Orbit, OrbitError, PeriodMap, Plane, follow_branch, follow_doubled,
 };
-use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, ReducedSystem};
+use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, ReducedSystem, Shaking};
 use nalgebra::Complex;
 
 use crate::support::*;
@@ -48,8 +48,14 @@ fn beyond_a_cusp_there_are_two_folds_and_before_it_none() -> TestResult {
         let there = system.with_excitation(beta, cusp.at[0] - 0.1)?;
         let orbit = Orbit::find(&there, None, 1)?;
         let range = (cusp.at[0] - 0.1, cusp.at[0] + 0.1);
-        let course =
-            Course { parameter: Parameter::Omega, range, periods: 1, upwards: true, most_points: 800 };
+        let course = Course {
+            shaking: Shaking::Amplitude,
+            parameter: Parameter::Omega,
+            range,
+            periods: 1,
+            upwards: true,
+            most_points: 800,
+        };
         let branch = follow_branch(&there, &orbit.state, &course)?;
         let folds = branch.bifurcations.iter().filter(|found| found.kind == Instability::Fold);
         Ok(folds.map(|found| found.point.value).collect())
@@ -147,6 +153,7 @@ fn the_doubled_motions_fold_ends_where_the_doubling_turns_supercritical() -> Tes
     let set = ParameterSet { beta: 1e-5, omega: 8.0969, ..mild(1e-4) };
     let system = system(set, ForceLaw::Quadratic)?;
     let course = Course {
+        shaking: Shaking::Amplitude,
         parameter: Parameter::Beta,
         range: (0.0, 0.01),
         periods: 1,

@@ -19,7 +19,7 @@ use harvester_lab::jobs::study::table::Table;
 use harvester_lab::jobs::study::{Study, complete};
 use harvester_lab::jobs::work::Work;
 use harvester_lab::model::materials::Ceramic;
-use harvester_lab::model::{ForceLaw, Limits, ParameterSet};
+use harvester_lab::model::{ForceLaw, Limits, ParameterSet, Shaking};
 use harvester_lab::scenario::Scenario;
 use harvester_lab::theory::Resonance;
 
@@ -87,7 +87,7 @@ fn an_open_circuit_begins_with_the_largest_load() -> TestResult {
 fn the_best_frequency_beats_the_given_one() -> TestResult {
     let scenario = figure_9();
     let plant = Plant::new(&scenario)?;
-    let (window, limits) = ((7.5, 8.8), Limits::default());
+    let (window, limits) = (((7.5, 8.8), Shaking::Amplitude), Limits::default());
     let found = best_frequency(&scenario, plant.resistance(), window, limits)?;
     let own = operating(&scenario)?;
     println!("{found:?}");
@@ -108,9 +108,19 @@ fn the_best_frequency_beats_the_given_one() -> TestResult {
 
 #[test]
 fn the_frequency_curves_agree_with_one_another() -> TestResult {
+    curves_agree(Shaking::Amplitude)
+}
+
+#[test]
+fn so_do_those_at_the_same_acceleration() -> TestResult {
+    curves_agree(Shaking::Acceleration)
+}
+
+fn curves_agree(shaking: Shaking) -> TestResult {
     let scenario = figure_9();
     let dwell = Dwell { discarded: 300, kept: 16 };
-    let question = HarvestQuestion { scenario, window: (7.6, 8.7), count: 23, dwell };
+    let question =
+        HarvestQuestion { scenario: scenario.clone(), window: (7.6, 8.7), shaking, count: 23, dwell };
     let mut study = HarvestStudy::new(question)?;
     complete(&mut study);
     assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
@@ -134,6 +144,27 @@ fn the_frequency_curves_agree_with_one_another() -> TestResult {
         assert!(on || *periods > 4, "{motion:?} {point:?}");
     }
     assert!(periodic >= 15, "{periodic}");
+    // Each is what the bench says of the device shaken so at that frequency.
+    let units = scenario.units();
+    let force = scenario.parameters.beta * scenario.parameters.omega.powi(2);
+    for index in [13, 20] {
+        let mut there = scenario.clone();
+        let p = &mut there.parameters;
+        p.omega = 7.6 + 1.1 * index as f64 / 22.0;
+        if shaking == Shaking::Acceleration {
+            p.beta = force / (p.omega * p.omega);
+        }
+        let found = operating(&there)?;
+        let (_, point) = study.from_rest()[index].flatten().ok_or("known")?;
+        let harvest = found.reached.harvest.ok_or("it lasts")?;
+        assert!((point.power / harvest.power - 1.0).abs() < 1e-6, "{point:?} {harvest:?}");
+        let per_g2 = harvest.power_per_g2.ok_or("shaken")?;
+        assert!((point.power_per_g2 / per_g2 - 1.0).abs() < 1e-6);
+        let hertz = units.hertz(there.parameters.omega);
+        let linear = study.linear().points.iter().find(|point| (point[0] / hertz - 1.0).abs() < 1e-9);
+        let linear = linear.ok_or("a point there")?;
+        assert!((linear[2] / found.linear.power - 1.0).abs() < 1e-9, "{linear:?} {:?}", found.linear);
+    }
     let least = 1e-5;
     let rest = powers(&study.rest_pieces());
     let (linear, band) = (study.linear(), usable(&rest, least));

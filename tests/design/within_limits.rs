@@ -7,7 +7,7 @@ use harvester_lab::jobs::solve;
 use harvester_lab::jobs::study::complete;
 use harvester_lab::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
 use harvester_lab::jobs::study::load::{LoadQuestion, LoadStudy};
-use harvester_lab::model::{Limits, ParameterSet};
+use harvester_lab::model::{Limits, ParameterSet, Shaking};
 use harvester_lab::scenario::Scenario;
 
 use crate::{TestResult, figure_9};
@@ -18,8 +18,9 @@ fn a_band_ends_where_the_motion_itself_meets_the_limit() -> TestResult {
     let plant = Plant::new(&scenario)?;
     let limits = Limits { voltage: Some((volts, volts)), ..Limits::default() };
     let bounds = Bounds::new(&plant, limits)?;
-    let dwell = Dwell { discarded: 100, kept: 8 };
-    let question = HarvestQuestion { scenario: scenario.clone(), window: (7.9, 8.7), count: 2, dwell };
+    let (dwell, shaking) = (Dwell { discarded: 100, kept: 8 }, Shaking::Amplitude);
+    let question =
+        HarvestQuestion { scenario: scenario.clone(), window: (7.9, 8.7), shaking, count: 2, dwell };
     let mut study = HarvestStudy::new(question)?;
     complete(&mut study);
     // The doubled motion alone gives more than 5 µW; it needs more than 20 V below this frequency.

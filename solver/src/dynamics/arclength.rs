@@ -11,7 +11,7 @@ use super::OrbitError;
 use super::newton::OrbitSolver;
 use super::period_map::PeriodMap;
 use super::plane::Axis;
-use crate::model::{Parameter, ParameterSet, ReducedSystem};
+use crate::model::{Parameter, ParameterSet, ReducedSystem, Shaking};
 
 /// Iterations of a correction.
 const MAX_ITERATIONS: usize = 12;
@@ -36,6 +36,9 @@ pub(super) struct Family<const K: usize> {
     /// Step of difference quotients in a parameter, relative to the width of its range.
     pub(super) difference: f64,
     axes: [Axis; K],
+    /// The numbers that do not change, and how the base is shaken while those on the axes do.
+    origin: ParameterSet,
+    shaking: Shaking,
     /// Units of the places' components.
     units: Vec<f64>,
     /// Systems that differ in more than beta, with their maps, the one used last at the end.
@@ -47,12 +50,19 @@ pub(super) struct Family<const K: usize> {
 impl<const K: usize> Family<K> {
     /// The orbits of `periods` excitation periods of the device `system` with its parameters on `axes`.
     pub(super) fn new(system: &ReducedSystem, axes: [Axis; K], periods: usize) -> Result<Self, OrbitError> {
+        let (origin, shaking) = (*system.parameters, Shaking::Amplitude);
         let mut solver = OrbitSolver::new(system);
         let gap = solver.map().gap();
         let state = solver.map().scales().iter().map(|scale| scale * gap);
         let units = state.chain(axes.iter().map(Axis::width)).collect();
         let (difference, spare, columns) = (DIFFERENCE, Vec::new(), None);
-        Ok(Self { system: system.clone(), periods, solver, difference, axes, units, spare, columns })
+        let system = system.clone();
+        Ok(Self { system, periods, solver, difference, axes, origin, shaking, units, spare, columns })
+    }
+
+    /// The same, shaken so.
+    pub(super) fn shaken(self, shaking: Shaking) -> Self {
+        Self { shaking, ..self }
     }
 
     /// Length 2N + 1 of the state.
@@ -91,9 +101,9 @@ impl<const K: usize> Family<K> {
     /// Makes the system the one at the parameters `values`. Between systems visited lately it only switches, and
     /// finds their solvers as they were left.
     pub(super) fn set(&mut self, values: [f64; K]) -> Result<(), OrbitError> {
-        let mut set: ParameterSet = *self.system.parameters;
+        let mut set = self.origin;
         for (axis, value) in self.axes.iter().zip(values) {
-            *axis.parameter.get_mut(&mut set) = axis.accepted(value);
+            set = self.shaking.at(&set, axis.parameter, axis.accepted(value));
         }
         let differs = |other: &ParameterSet| ParameterSet { beta: set.beta, ..*other } != set;
         if differs(&self.system.parameters) {

@@ -5,13 +5,15 @@ use nalgebra::Complex;
 use super::OrbitError;
 use super::floquet::Instability;
 use super::orbit::Measures;
-use crate::model::Parameter;
+use crate::model::{Parameter, Shaking};
 
 /// What to follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
     /// The number that changes.
     pub parameter: Parameter,
+    /// How the base is shaken meanwhile.
+    pub shaking: Shaking,
     /// Where it may go; the ends belong to the branch.
     pub range: (f64, f64),
     /// Period of the orbits in excitation periods.

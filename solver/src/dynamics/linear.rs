@@ -131,6 +131,7 @@ pub(super) mod tests {
             inverse_mass: vec![3.5, 3.25],
             drive: vec![1.5, -0.75],
             theta: vec![0.0125, 0.046875],
+            tip_slopes: vec![1.4, 4.8],
             mutual_damping: 0.00125,
             inverse_capacitance: 1e9,
             kappa: 0.01,

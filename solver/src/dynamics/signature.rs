@@ -153,7 +153,14 @@ mod tests {
         let system = ModelChoice::default().system(ParameterSet::default()).expect("the paper's device");
         let recogniser = Recogniser::new(&system);
         let torus = |v_rms| Signature {
-            cell: Cell { motion: Motion::Quasiperiodic, v_rms, power: 0.0, tip: (0.0, 0.0), v_peak: 0.0 },
+            cell: Cell {
+                motion: Motion::Quasiperiodic,
+                v_rms,
+                power: 0.0,
+                tip: (0.0, 0.0),
+                v_peak: 0.0,
+                slope: 0.0,
+            },
             states: vec![vec![0.0; 5]],
         };
         assert!(recogniser.same(&torus(20.0), &torus(20.5)));
@@ -165,6 +172,7 @@ mod tests {
                 power: 0.0,
                 tip: (0.0, 0.0),
                 v_peak: 0.0,
+                slope: 0.0,
             },
             states: Vec::new(),
         };

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::poincare::{PhasePoint, recurrence};
 use super::summary::Collector;
 use super::{Collocation, IntegrationError, Outcome, Settings};
-use crate::model::{ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem};
+use crate::model::{ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem, Shaking};
 
 /// How many times longer the transient of a value that starts from the sweep's own start may take.
 pub const SETTLING: usize = 5;
@@ -78,7 +78,7 @@ pub struct SweepPoint {
     pub restarted: bool,
 }
 
-/// Visits `values` of `parameter` in their order, everything else being as in `set` and `model`, from `state` (length
+/// Visits `values` of `parameter` in their order, everything else being as in `set` and `model`, the base shaken so, from `state` (length
 /// 2N + 1), or from `start` (of that length) where no motion is carried over. Returns the points and the state in which the last one ended, unless that ended early.
 ///
 /// # Errors
@@ -87,7 +87,7 @@ pub fn sweep(
     set: &ParameterSet,
     model: ModelChoice,
     start: &[f64],
-    parameter: Parameter,
+    (parameter, shaking): (Parameter, Shaking),
     values: &[f64],
     state: Option<&[f64]>,
     dwell: Dwell,
@@ -95,8 +95,7 @@ pub fn sweep(
     let mut carried = state.map(<[f64]>::to_vec);
     let mut points = Vec::with_capacity(values.len());
     for value in values {
-        let mut set = *set;
-        *parameter.get_mut(&mut set) = *value;
+        let set = shaking.at(set, parameter, *value);
         let restarted = carried.is_none();
         let from = carried.as_ref().map_or(start, Vec::as_slice);
         let held = match model.system(set) {

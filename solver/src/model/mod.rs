@@ -16,6 +16,7 @@ mod open_circuit;
 pub mod parameters;
 pub mod quadrature;
 pub mod reduced;
+mod shaking;
 pub mod units;
 
 pub use choice::ModelChoice;
@@ -28,6 +29,7 @@ pub use magnet::{Equilibrium, Magnet};
 pub use modes::{Mode, ModeSet};
 pub use parameters::{Parameter, ParameterSet, Parameters};
 pub use reduced::ReducedSystem;
+pub use shaking::Shaking;
 pub use units::Units;
 
 /// Largest number of modes a truncation may keep (dimensionless count).

@@ -91,8 +91,9 @@ mod tests {
     #[test]
     fn what_plays_no_role_in_a_study_begins_no_other() {
         let session = Session::default();
-        let questions = |change: &dyn Fn(&mut Device)| {
+        let questions = |holds_acceleration: bool, change: &dyn Fn(&mut Device)| {
             let mut view = View::default();
+            view.design.holds_acceleration = holds_acceleration;
             let mut entered = view.scenario.device().expect("a device");
             change(&mut entered);
             view.scenario.set_device(entered, ElectricalScaling::AsPrinted).expect("a device");
@@ -104,11 +105,19 @@ mod tests {
                 trust: questions::trust(&view).works().to_vec(),
             }
         };
-        let before = questions(&|_| {});
-        let elsewhere = questions(&|device| device.frequency = 2.81);
+        let before = questions(false, &|_| {});
+        let elsewhere = questions(false, &|device| device.frequency = 2.81);
         assert!(before.harvest == elsewhere.harvest && before.best == elsewhere.best);
+        let as_hard = questions(true, &|device| {
+            let acceleration = device.acceleration();
+            device.frequency = 2.81;
+            *device = device.with_acceleration(acceleration);
+        });
+        let held = questions(true, &|_| {});
+        assert!(held.harvest == as_hard.harvest && held.best == as_hard.best);
+        assert!(held.harvest != before.harvest, "what is held plays a role");
         assert!(before.trust != elsewhere.trust, "the frequency plays a role in the table of trust");
-        let loaded = questions(&|device| device.resistance *= 1.01);
+        let loaded = questions(false, &|device| device.resistance *= 1.01);
         assert!(before.harvest != loaded.harvest, "the load plays a role over frequency");
     }
 }

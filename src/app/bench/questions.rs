@@ -15,7 +15,7 @@ use crate::jobs::study::harvest::HarvestQuestion;
 use crate::jobs::study::load::{LoadQuestion, LoadStudy};
 use crate::jobs::study::table::Table;
 use crate::jobs::work::Work;
-use crate::model::{Dimension, Parameter};
+use crate::model::{Dimension, Parameter, Shaking};
 use crate::scenario::{ModelChoice, Scenario};
 
 /// Loads whose best frequency is looked for: every so many of those in view.
@@ -30,6 +30,22 @@ const FREQUENCIES: usize = 97;
 const ABOUT: f64 = 0.2;
 /// Smallest window, over its middle.
 const LEAST_WINDOW: f64 = 1e-3;
+
+/// What of the base's motion stays while its frequency changes.
+pub(in crate::app) fn shaking(view: &View) -> Shaking {
+    if view.design.holds_acceleration { Shaking::Acceleration } else { Shaking::Amplitude }
+}
+
+/// The scenario where the frequency of a curve begins, for one in which the present frequency plays no role.
+fn at_the_beginning(view: &View, scenario: Scenario, window: (f64, f64)) -> Scenario {
+    if scenario.base().loss_tangent > 0.0 {
+        return scenario;
+    }
+    // Rounded, so that going along the curve and back makes no other question.
+    let mut set = shaking(view).at(&scenario.parameters, Parameter::Omega, window.0);
+    set.beta = round_significant(set.beta, 12);
+    Scenario { parameters: set, ..scenario }
+}
 
 /// Lowest and highest omega (dimensionless) of the curves: as chosen, or the map's window about the present frequency.
 pub(in crate::app) fn window(view: &View, session: &Session) -> (f64, f64) {
@@ -50,6 +66,10 @@ pub(in crate::app) fn window(view: &View, session: &Session) -> (f64, f64) {
             ((1.0 - ABOUT) * middle, (1.0 + ABOUT) * middle)
         }
     };
+    // The same acceleration takes more and more amplitude towards low frequencies.
+    let most = Parameter::Beta.range().1 * (1.0 - 1e-9);
+    let reach = omega * (view.scenario.parameters.beta / most).sqrt();
+    let minimum = if shaking(view) == Shaking::Acceleration { minimum.max(reach) } else { minimum };
     let low = low.clamp(minimum, maximum * (1.0 - LEAST_WINDOW));
     (low, high.clamp(low * (1.0 + LEAST_WINDOW), maximum))
 }
@@ -57,12 +77,9 @@ pub(in crate::app) fn window(view: &View, session: &Session) -> (f64, f64) {
 /// The curves over frequency.
 pub(in crate::app) fn harvest(view: &View, session: &Session) -> HarvestQuestion {
     let window = window(view, session);
-    let mut scenario = Scenario { initial: None, ..view.scenario.clone() };
-    if scenario.base().loss_tangent == 0.0 {
-        // Then the frequency in view plays no role, and must not make another question.
-        scenario.parameters.omega = window.0;
-    }
-    HarvestQuestion { scenario: scenario.essential(), window, count: FREQUENCIES, dwell: Dwell::default() }
+    let scenario = Scenario { initial: None, ..view.scenario.clone() };
+    let scenario = at_the_beginning(view, scenario, window).essential();
+    HarvestQuestion { scenario, window, shaking: shaking(view), count: FREQUENCIES, dwell: Dwell::default() }
 }
 
 /// The curves over the load, at the frequency in view.
@@ -97,16 +114,14 @@ pub(in crate::app) fn trust(view: &View) -> Table {
 /// The best frequency of a few loads.
 pub(in crate::app) fn best_frequencies(view: &View, session: &Session, loads: &LoadStudy) -> Table {
     let window = window(view, session);
-    let mut scenario = Scenario { initial: None, ..view.scenario.clone() };
-    if scenario.base().loss_tangent == 0.0 {
-        scenario.parameters.omega = window.0;
-    }
+    let scenario = Scenario { initial: None, ..view.scenario.clone() };
+    let mut scenario = at_the_beginning(view, scenario, window);
     scenario.parameters.kappa = Parameter::Kappa.get(&Default::default());
     let scenario = scenario.essential();
-    let limits = bench::limits(view);
+    let (shaking, limits) = (shaking(view), bench::limits(view));
     let work = |resistance: &f64| {
         let (scenario, resistance) = (scenario.clone(), *resistance);
-        Work::Design(DesignWork::BestFrequency { scenario, resistance, window, limits })
+        Work::Design(DesignWork::BestFrequency { scenario, resistance, window, shaking, limits })
     };
     Table::new(loads.resistances().iter().step_by(EVERY_LOAD).map(work).collect())
 }

@@ -66,16 +66,15 @@ pub struct LinearCurve {
     pub half_power: Interval,
 }
 
-/// The power of `plant` without its magnets for `omega` (dimensionless) in `window`, at its own amplitude of the base.
+/// The power of `plant` without its magnets for `omega` (dimensionless) in `window`, its base shaken as it says.
 ///
 /// # Errors
 /// [`DesignError`].
 pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<LinearCurve, DesignError> {
     let system = plant.without_magnets()?;
-    let beta = system.parameters.beta;
     let units = &plant.units;
     let at = |omega: f64| -> Result<[f64; 5], DesignError> {
-        let response = LinearResponse::new(&system.with_excitation(beta, omega)?)?;
+        let response = LinearResponse::new(&system.with_excitation(plant.beta_at(omega), omega)?)?;
         let v_rms = response.voltage.norm() * std::f64::consts::FRAC_1_SQRT_2;
         let tip = units.millimetres(response.tip().norm());
         Ok([units.hertz(omega), v_rms, plant.watts(v_rms), tip, slope(&system, &response)])
@@ -104,9 +103,11 @@ pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<L
 /// [`DesignError`].
 pub fn linear_peak(plant: &Plant, window: (f64, f64)) -> Result<(f64, f64), DesignError> {
     let system = plant.without_magnets()?;
-    let beta = system.parameters.beta;
     let power = |omega: f64| {
-        let response = system.with_excitation(beta, omega).ok().and_then(|at| LinearResponse::new(&at).ok());
+        let response = system
+            .with_excitation(plant.beta_at(omega), omega)
+            .ok()
+            .and_then(|at| LinearResponse::new(&at).ok());
         let square = |response: LinearResponse| 0.5 * response.voltage.norm_sqr();
         response.map_or(f64::INFINITY, |response| plant.units.watts(plant.load * square(response)))
     };

@@ -9,7 +9,7 @@ use crate::dynamics::motion::{Cell, Horizon};
 use crate::dynamics::orbit::Measures;
 use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError, reach};
 use crate::jobs::response::response;
-use crate::model::{Limits, ModelError, Parameter, ReducedSystem};
+use crate::model::{Limits, ModelError, Parameter, ReducedSystem, Shaking};
 use crate::scenario::Scenario;
 use crate::theory::{Source, TheoryError};
 
@@ -175,7 +175,8 @@ pub struct BestFrequency {
     pub within_limits: Option<Peak>,
 }
 
-/// The best frequency for a load of `resistance` (ohm) with omega in `window` (dimensionless): of the linear device, and
+/// The best frequency for a load of `resistance` (ohm) with omega in `window` (dimensionless), the base shaken
+/// so: of the linear device, and
 /// of the stable periodic motions on the forced branch and its doubled ones, at the points that represent them, all
 /// of them and those within `limits`.
 ///
@@ -184,18 +185,18 @@ pub struct BestFrequency {
 pub fn best_frequency(
     scenario: &Scenario,
     resistance: f64,
-    window: (f64, f64),
+    (window, shaking): ((f64, f64), Shaking),
     limits: Limits,
 ) -> Result<BestFrequency, DesignError> {
     crate::jobs::response::check_range(Parameter::Omega, window)?;
-    let plant = Plant::new(scenario)?.with_resistance(resistance)?;
+    let plant = Plant::new(scenario)?.shaken(shaking).with_resistance(resistance)?;
     let bounds = Bounds::new(&plant, limits)?;
     let (omega, power) = linear_peak(&plant, window)?;
     if !power.is_finite() {
         return Err(TheoryError::Undamped { omega }.into());
     }
     // Without any branch the device still has its linear one.
-    let curves = match response(&plant.scenario, Parameter::Omega, window) {
+    let curves = match response(&plant.scenario, (Parameter::Omega, shaking), window) {
         Err(error @ OrbitError::Model(ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
             return Err(error.into());
         }

@@ -1,7 +1,7 @@
 //! A scenario as a plant that delivers watts: its units, its load, and the dielectric loss beside the load.
 
 use crate::model::materials::dielectric_conductance;
-use crate::model::{ModelError, ParameterSet, Parameters, ReducedSystem, Units};
+use crate::model::{ModelError, Parameter, ParameterSet, Parameters, ReducedSystem, Shaking, Units};
 use crate::scenario::Scenario;
 
 /// A scenario with its SI units and losses.
@@ -17,6 +17,8 @@ pub struct Plant {
     pub leakage: f64,
     /// SI units.
     pub units: Units,
+    /// What of the base's motion stays at other frequencies.
+    pub shaking: Shaking,
 }
 
 impl Plant {
@@ -30,12 +32,23 @@ impl Plant {
         Self::with(scenario, kappa, leakage)
     }
 
+    /// The same plant, shaken so at other frequencies.
+    #[must_use]
+    pub fn shaken(self, shaking: Shaking) -> Self {
+        Self { shaking, ..self }
+    }
+
+    /// Amplitude beta of the base at `omega` (dimensionless).
+    pub fn beta_at(&self, omega: f64) -> f64 {
+        self.shaking.at(&self.scenario.parameters, Parameter::Omega, omega).beta
+    }
+
     fn with(scenario: &Scenario, load: f64, leakage: f64) -> Result<Self, ModelError> {
         let mut scenario = scenario.clone();
         scenario.parameters.kappa = load + leakage;
         scenario.validate()?;
         let units = scenario.units();
-        Ok(Self { scenario, load, leakage, units })
+        Ok(Self { scenario, load, leakage, units, shaking: Shaking::Amplitude })
     }
 
     /// The same plant with a load of `resistance` (ohm).
@@ -43,7 +56,8 @@ impl Plant {
     /// # Errors
     /// [`ModelError`] when the conductance is out of range.
     pub fn with_resistance(&self, resistance: f64) -> Result<Self, ModelError> {
-        Self::with(&self.scenario, self.conductance(resistance), self.leakage)
+        let plant = Self::with(&self.scenario, self.conductance(resistance), self.leakage)?;
+        Ok(plant.shaken(self.shaking))
     }
 
     /// Dimensionless conductance of a resistance (ohm), and the other way round: (1 ohm)^-1 of the one is the other.

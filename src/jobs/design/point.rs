@@ -37,7 +37,7 @@ impl HarvestPoint {
     ) -> Self {
         let units = &plant.units;
         let power = plant.watts(v_rms);
-        let acceleration = units.acceleration(plant.scenario.parameters.beta, omega);
+        let acceleration = units.acceleration(plant.beta_at(omega), omega);
         Self {
             frequency: units.hertz(omega),
             v_rms,

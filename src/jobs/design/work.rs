@@ -8,7 +8,7 @@ use super::materials::{MaterialRow, material_row};
 use super::trust::{Quantity, TrustEntry, trust_entry};
 use crate::dynamics::tongue::Window;
 use crate::model::materials::Ceramic;
-use crate::model::{ForceLaw, Limits};
+use crate::model::{ForceLaw, Limits, Shaking};
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
@@ -44,6 +44,8 @@ pub enum DesignWork {
         resistance: f64,
         /// Lowest and highest omega (dimensionless).
         window: (f64, f64),
+        /// What of the base's motion stays at other frequencies.
+        shaking: Shaking,
         /// What must be kept.
         limits: Limits,
     },
@@ -119,8 +121,9 @@ impl DesignWork {
                 let (points, state) = reached_loads(scenario, resistances, state.as_deref())?;
                 DesignFinding::ReachedLoads { points, state }
             }
-            Self::BestFrequency { scenario, resistance, window, limits } => {
-                DesignFinding::BestFrequency(best_frequency(scenario, *resistance, *window, *limits)?)
+            Self::BestFrequency { scenario, resistance, window, shaking, limits } => {
+                let window = (*window, *shaking);
+                DesignFinding::BestFrequency(best_frequency(scenario, *resistance, window, *limits)?)
             }
             Self::Material { scenario, ceramic, mode, resonance, window } => {
                 let row = material_row(scenario, *ceramic, *mode, *resonance, *window)?;

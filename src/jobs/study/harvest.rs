@@ -1,5 +1,6 @@
 //! What a device harvests over frequency: the linear device, the branches of periodic motions, what is reached from
-//! rest, and what a sweep up and down reaches; all at the scenario's own amplitude of the base.
+//! rest, and what a sweep up and down reaches; all at the scenario's own amplitude of the base, or of its
+//! acceleration.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +13,7 @@ use crate::jobs::design::{DesignError, HarvestPoint, Plant};
 use crate::jobs::motions::{Coordinate, MotionPlane};
 use crate::jobs::response::{ResponseCurve, ResponsePoint};
 use crate::jobs::work::{Finding, Work};
-use crate::model::Parameter;
+use crate::model::{ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
 
 /// Frequencies of a piece of work.
@@ -29,6 +30,8 @@ pub struct HarvestQuestion {
     pub scenario: Scenario,
     /// Lowest and highest omega (dimensionless).
     pub window: (f64, f64),
+    /// What of the base's motion stays over them.
+    pub shaking: Shaking,
     /// Number of frequencies of sweeps and starts, 2 to 2000.
     pub count: usize,
     /// How long a frequency is held in a sweep.
@@ -55,11 +58,14 @@ impl HarvestStudy {
     /// # Errors
     /// [`DesignError`] naming what is out of range.
     pub fn new(question: HarvestQuestion) -> Result<Self, DesignError> {
-        let plant = Plant::new(&question.scenario)?;
+        let plant = Plant::new(&question.scenario)?.shaken(question.shaking);
+        let (low, high) = (question.window.0, Parameter::Beta.range().1);
+        ModelError::check("beta at the lowest frequency", plant.beta_at(low), (0.0, high), "")?;
         let rest = Scenario { initial: None, ..plant.scenario.clone() };
         let sweep = SweepQuestion {
             scenario: rest,
             parameter: Parameter::Omega,
+            shaking: question.shaking,
             range: question.window,
             count: question.count,
             dwell: question.dwell,
@@ -158,14 +164,14 @@ impl HarvestStudy {
             return None;
         }
         self.starts_handed = end;
-        let beta = self.plant.scenario.parameters.beta;
         let plane = MotionPlane {
             scenario: Scenario { initial: None, ..self.plant.scenario.clone() },
             x: Coordinate::Parameter(Parameter::Omega),
             y: Coordinate::Parameter(Parameter::Beta),
             t_end: self.plant.scenario.t_end,
         };
-        let places = (begin..end).map(|index| [self.omega(index), beta]).collect();
+        let places =
+            (begin..end).map(|index| [self.omega(index), self.plant.beta_at(self.omega(index))]).collect();
         Some((STARTS + begin / PER_PIECE, Work::Motions { plane, places }))
     }
 }
@@ -185,7 +191,8 @@ impl Study for HarvestStudy {
         }
         if !std::mem::replace(&mut self.branches_handed, true) {
             let (scenario, range) = (self.plant.scenario.clone(), self.question.window);
-            return Some((BRANCHES, Work::Response { scenario, parameter: Parameter::Omega, range }));
+            let (parameter, shaking) = (Parameter::Omega, self.question.shaking);
+            return Some((BRANCHES, Work::Response { scenario, parameter, shaking, range }));
         }
         let sweep = self.sweeps.next().map(|(ticket, work)| (SWEEPS + ticket, work));
         sweep.or_else(|| self.next_starts())

@@ -7,7 +7,7 @@ use crate::jobs::design::load::{BestFrequency, LoadPoint, decades, linear_loads}
 use crate::jobs::design::{DesignError, DesignFinding, DesignWork, Plant};
 use crate::jobs::response::check_range;
 use crate::jobs::work::{Finding, Work};
-use crate::model::{Limits, ModelError, Parameter};
+use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
 
 /// Numbers of loads a decade may have.
@@ -30,7 +30,9 @@ pub struct LoadQuestion {
     pub per_decade: usize,
     /// Lowest and highest omega (dimensionless) among which the best frequency is looked for; not looked for without.
     pub window: Option<(f64, f64)>,
-    /// What must be kept at the best frequency.
+    /// What of the base's motion stays at the best frequency.
+    pub shaking: Shaking,
+    /// What must be kept there.
     pub limits: Limits,
 }
 
@@ -48,7 +50,14 @@ impl LoadQuestion {
         let lowest = 1.0 / (plant.units.power * Parameter::Kappa.range().1);
         let low = (1e-3 * middle).max(1.001 * lowest);
         let limits = Limits::of(&scenario.base());
-        Ok(Self { scenario, range: (low, 1e6 * low), per_decade: 10, window, limits })
+        Ok(Self {
+            scenario,
+            range: (low, 1e6 * low),
+            per_decade: 10,
+            window,
+            shaking: Shaking::Amplitude,
+            limits,
+        })
     }
 }
 
@@ -184,7 +193,8 @@ impl LoadStudy {
         let resistance = *self.resistances.get(index)?;
         self.best_handed += 1;
         let (scenario, limits) = (self.question.scenario.clone(), self.question.limits);
-        let work = DesignWork::BestFrequency { scenario, resistance, window, limits };
+        let shaking = self.question.shaking;
+        let work = DesignWork::BestFrequency { scenario, resistance, window, shaking, limits };
         Some((BEST + index, Work::Design(work)))
     }
 }

@@ -6,7 +6,7 @@ use super::Study;
 use crate::dynamics::sweep::{Dwell, SweepPoint};
 use crate::jobs::response::check_range;
 use crate::jobs::work::{Finding, Work};
-use crate::model::{ModelError, Parameter};
+use crate::model::{ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
 
 /// Numbers of values a sweep may have.
@@ -32,6 +32,9 @@ pub struct SweepQuestion {
     pub scenario: Scenario,
     /// What changes.
     pub parameter: Parameter,
+    /// How the base is shaken meanwhile.
+    #[serde(default)]
+    pub shaking: Shaking,
     /// Its lowest and highest value.
     pub range: (f64, f64),
     /// Number of equally spaced values.
@@ -126,6 +129,7 @@ impl Study for SweepStudy {
         let work = Work::Sweep {
             scenario: self.question.scenario.clone(),
             parameter: self.question.parameter,
+            shaking: self.question.shaking,
             values,
             state: way.state.clone(),
             dwell: self.question.dwell,

@@ -8,7 +8,7 @@ use crate::jobs::RequestError;
 use crate::jobs::response::{ResponseCurve, response};
 use crate::jobs::study::complete;
 use crate::jobs::study::sweep::{COUNTS, Direction, SweepQuestion, SweepStudy};
-use crate::model::{Parameter, ParameterSet};
+use crate::model::{Parameter, ParameterSet, Shaking};
 use crate::scenario::{ModelChoice, Scenario};
 
 /// Most stroboscopic voltages of an answer.
@@ -94,6 +94,7 @@ impl SweepRequest {
         let question = SweepQuestion {
             scenario: scenario.clone(),
             parameter: self.parameter,
+            shaking: Shaking::Amplitude,
             range,
             count: self.count,
             dwell,
@@ -104,7 +105,10 @@ impl SweepRequest {
         if let Some(message) = sweep.failure() {
             return Err(RequestError::Study(message.to_owned()));
         }
-        let branches = self.branches.then(|| response(&scenario, self.parameter, range)).transpose()?;
+        let branches = self
+            .branches
+            .then(|| response(&scenario, (self.parameter, Shaking::Amplitude), range))
+            .transpose()?;
         Ok(Answer::Sweep(SweepAnswer { points: sweep.points(self.direction).to_vec(), branches }))
     }
 }

@@ -15,7 +15,7 @@ use super::tracer::trace_curve;
 use crate::dynamics::boundary::Forced;
 use crate::dynamics::plane::{Axis, Plane};
 use crate::dynamics::{Branch, Course, Instability, OrbitError, OrbitSolver, follow_branch, follow_doubled};
-use crate::model::{Parameter, ReducedSystem};
+use crate::model::{Parameter, ReducedSystem, Shaking};
 use crate::theory::spectrum::eigenvalues;
 
 /// Most points of a branch along a line: a resonance can be followed up without end, and beyond about this many the tip
@@ -199,7 +199,9 @@ impl Curve {
 }
 
 fn course(axis: Axis, upwards: bool) -> Course {
-    Course { parameter: axis.parameter, range: axis.range, periods: 1, upwards, most_points: MOST_POINTS }
+    let Axis { parameter, range } = axis;
+    let shaking = Shaking::Amplitude;
+    Course { parameter, shaking, range, periods: 1, upwards, most_points: MOST_POINTS }
 }
 
 /// The system at the parameters `at`, and the branch of forced motions from there along `axis`.

@@ -18,16 +18,24 @@ use crate::jobs::design::point::powers;
 use crate::jobs::design::{Bounds, HarvestPoint, Interval};
 use crate::jobs::study::harvest::HarvestStudy;
 use crate::jobs::study::sweep::Direction;
+use crate::model::Shaking;
 
 /// Least power (W) on the slider.
 const LEAST: f64 = 1e-9;
 
+/// How the base is shaken over the frequencies: `at 0.155 g`, or `at 4.80 mm`.
+pub(super) fn held(view: &View) -> String {
+    let (units, p) = (view.scenario.units(), view.scenario.parameters);
+    let what = match questions::shaking(view) {
+        Shaking::Acceleration => format!("{} g", significant(units.acceleration(p.beta, p.omega), 3)),
+        Shaking::Amplitude => format!("{} mm", significant(units.millimetres(p.beta), 3)),
+    };
+    fill("at {what}", &[("what", &what)])
+}
+
 /// Draws the cards beside the curves.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    Card::new(tr("Bands"))
-        .hint(tr("at the base's present amplitude"))
-        .hugging()
-        .show(ui, |ui| table(context, ui));
+    Card::new(tr("Bands")).hint(&held(context.view)).hugging().show(ui, |ui| table(context, ui));
     ui.add_space(grid::GAP);
     Card::new(tr("Best load")).hugging().show(ui, |ui| super::best_load::brief(context, ui));
     ui.add_space(grid::GAP);
@@ -115,6 +123,11 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
         let bounds = if index == 0 { bounds.as_ref().map(Bounds::without_magnets) } else { bounds };
         Enough::new(&all[index].1, present, bounds)
     });
+    // What meets an end of the window may go on beyond it.
+    let (low, high) = study.question().window;
+    let (low, high) =
+        (study.question().scenario.units().hertz(low), study.question().scenario.units().hertz(high));
+    let at_end = |hertz: f64| (hertz - low).min(high - hertz) < 1e-6 * (high - low);
     ui.spacing_mut().interact_size.y = 18.0;
     Grid::new("bands").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
         for text in ["", tr("highest"), tr("half power"), tr("enough")] {
@@ -125,15 +138,23 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
             let Some(top) = highest(pieces) else { continue };
             let half = if index == 0 { Some(study.linear().half_power) } else { half_power(&powers(pieces)) };
             ui.label(small(name).color(tokens.text));
-            let peak = ui.label(small(&with_unit(top.power, "W")).color(tokens.text_strong));
+            let at_least = |reached: bool| if reached { "≥ " } else { "" };
+            let shown = format!("{}{}", at_least(at_end(top.frequency)), with_unit(top.power, "W"));
+            let peak = ui.label(small(&shown).color(tokens.text_strong));
             peak.on_hover_text(fill("at {hertz} Hz", &[("hertz", &significant(top.frequency, 5))]));
-            let shown = half.map_or("–".to_owned(), |half| hertz(half.to - half.from));
+            let cut_off = |band: &Interval| at_least(at_end(band.from) || at_end(band.to));
+            let shown = half
+                .map_or("–".to_owned(), |half| format!("{}{}", cut_off(&half), hertz(half.to - half.from)));
             let label = ui.label(small(&shown).color(tokens.text));
             if let Some(half) = half {
                 label.on_hover_text(interval(&half));
             }
             let bands = &enough.bands;
-            let shown = if bands.is_empty() { tr("none").to_owned() } else { hertz(total(bands)) };
+            let further = bands.iter().map(cut_off).max().unwrap_or_default();
+            let shown = match total(bands) {
+                width if bands.is_empty() || width == 0.0 => tr("none").to_owned(),
+                width => format!("{further}{}", hertz(width)),
+            };
             let cut = enough.in_words(tokens);
             let colour = cut.as_ref().map_or(tokens.text_strong, |(_, colour)| *colour);
             let label = ui.label(small(&shown).color(colour));
@@ -147,10 +168,13 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let stable = &enough[1];
     let power = with_unit(present, "W");
     let text = if stable.bands.is_empty() {
-        fill("Nowhere here does a stable motion give {power}.", &[("power", &power)])
+        fill("No stable periodic motion gives {power} here.", &[("power", &power)])
     } else {
         let list = list(&stable.bands, ", ");
-        fill("At least {power} over {list} by stable motions.", &[("power", &power), ("list", &list)])
+        fill(
+            "At least {power} over {list} by stable periodic motions.",
+            &[("power", &power), ("list", &list)],
+        )
     };
     ui.add_space(2.0);
     ui.add(egui::Label::new(small(&text).color(tokens.text)).wrap());

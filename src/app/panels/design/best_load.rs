@@ -6,12 +6,14 @@ use super::going::{go_to, use_load};
 use super::load::best_frequencies;
 use super::optimum::Optimum;
 use super::safety::Safety;
+use crate::app::bench::questions;
 use crate::app::panels::computing;
 use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::widgets::Card;
 use crate::app::widgets::number::{significant, with_unit};
+use crate::jobs::design::Plant;
 use crate::jobs::design::load::{BestFrequency, LoadPoint, Peak};
 use crate::jobs::study::Study as _;
 
@@ -38,7 +40,9 @@ pub(super) fn brief(context: &mut Context<'_>, ui: &mut Ui) {
             line(ui, &fill("the motion reached: {what}", &[("what", &all.0)]));
             safe_part(ui, &all, within.as_ref());
             let load = best.to_use().resistance;
-            if ui.button(fill("Use {load}", &[("load", &with_unit(load, "Ω"))])).clicked() {
+            let own = Plant::new(&context.view.scenario).map_or(f64::NAN, |plant| plant.resistance());
+            let button = egui::Button::new(fill("Use {load}", &[("load", &with_unit(load, "Ω"))]));
+            if ui.add_enabled((own / load - 1.0).abs() > 1e-3, button).clicked() {
                 use_load(context, load);
             }
         }
@@ -80,11 +84,14 @@ fn both(context: &mut Context<'_>, ui: &mut Ui) {
         line(ui, &computing(table.progress()));
     }
     let finished = unfinished.is_none();
+    let (low, high) = questions::window(context.view, context.session);
+    let units = context.view.scenario.units();
+    let (low, high) = (units.hertz(low), units.hertz(high));
     let place = |frequency: f64, resistance: f64, power: f64| {
-        fill(
-            "{what} at {hertz} Hz",
-            &[("what", &gives(resistance, power)), ("hertz", &significant(frequency, 4))],
-        )
+        let inside = (frequency - low).min(high - frequency) > 1e-6 * (high - low);
+        let (what, hertz) = (gives(resistance, power), significant(frequency, 4));
+        let text = fill("{what} at {hertz} Hz", &[("what", &what), ("hertz", &hertz)]);
+        text + if inside { "" } else { tr(", at the window's end") }
     };
     let linear = best.iter().max_by(|a, b| a.linear[1].total_cmp(&b.linear[1]));
     if let Some(best) = linear {
@@ -113,5 +120,6 @@ fn both(context: &mut Context<'_>, ui: &mut Ui) {
         }
         line(ui, tr("A start at rest may lead to another motion."));
     }
-    line(ui, tr("Within the window of frequencies of the page Harvest, at the base's present amplitude."));
+    let held = super::bands::held(context.view);
+    line(ui, &fill("Within the window of frequencies of the page Harvest, {held}.", &[("held", &held)]));
 }

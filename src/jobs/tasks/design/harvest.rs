@@ -12,7 +12,7 @@ use crate::jobs::design::{Bounds, HarvestPoint, Interval, Operating, Plant, oper
 use crate::jobs::study::complete;
 use crate::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
 use crate::jobs::study::sweep::Direction;
-use crate::model::{Limits, ModelError};
+use crate::model::{Limits, ModelError, Shaking};
 use crate::scenario::Scenario;
 
 /// What the device harvests.
@@ -21,6 +21,8 @@ use crate::scenario::Scenario;
 pub struct HarvestTask {
     /// Frequencies of the curves; no curves when absent.
     pub frequency: Option<Hertz>,
+    /// What of the base's motion stays over the frequencies.
+    pub hold: Shaking,
     /// Power (W) that counts as usable, for the bands; half of the highest of all curves by default.
     pub least: Option<f64>,
     /// What must be kept in the bands within limits; the voltage by the ceramic where none is given.
@@ -64,7 +66,7 @@ pub struct HarvestAnswer {
     /// At its own excitation.
     #[serde(flatten)]
     pub operating: Operating,
-    /// Over frequency, at its own amplitude of the base.
+    /// Over frequency, at its own amplitude of the base or of its acceleration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curves: Option<Curves>,
 }
@@ -129,8 +131,13 @@ impl HarvestTask {
         let window = frequency.window(&plant)?;
         let bounds = Bounds::new(&plant, self.limits.completed(&scenario.base()))?;
         let dwell = Dwell::default();
-        let mut study =
-            HarvestStudy::new(HarvestQuestion { scenario, window, count: frequency.count, dwell })?;
+        let mut study = HarvestStudy::new(HarvestQuestion {
+            scenario,
+            window,
+            shaking: self.hold,
+            count: frequency.count,
+            dwell,
+        })?;
         complete(&mut study);
         failed(study.failure())?;
         let branches = study.branches().and_then(Result::ok).unwrap_or_default();

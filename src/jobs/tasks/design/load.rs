@@ -9,7 +9,7 @@ use crate::jobs::design::load::{BestFrequency, LoadPoint, best};
 use crate::jobs::design::{Bounds, Plant};
 use crate::jobs::study::complete;
 use crate::jobs::study::load::{LoadQuestion, LoadStudy};
-use crate::model::Limits;
+use crate::model::{Limits, Shaking};
 use crate::scenario::Scenario;
 
 /// Power against the load.
@@ -24,13 +24,22 @@ pub struct LoadTask {
     pub per_decade: usize,
     /// Frequencies (Hz) among which the best one is looked for under each load; their number plays no role.
     pub window: Option<Hertz>,
+    /// What of the base's motion stays at the best frequency.
+    pub hold: Shaking,
     /// What must be kept; the voltage by the ceramic where none is given.
     pub limits: Limits,
 }
 
 impl Default for LoadTask {
     fn default() -> Self {
-        Self { from: None, to: None, per_decade: 10, window: None, limits: Limits::default() }
+        Self {
+            from: None,
+            to: None,
+            per_decade: 10,
+            window: None,
+            hold: Shaking::Amplitude,
+            limits: Limits::default(),
+        }
     }
 }
 
@@ -63,7 +72,13 @@ impl LoadTask {
         let range = (low, self.to.unwrap_or(if self.from.is_some() { 1e6 * low } else { about.range.1 }));
         let limits = self.limits.completed(&about.scenario.base());
         let bounds = Bounds::new(&plant, limits)?;
-        let mut study = LoadStudy::new(LoadQuestion { range, per_decade: self.per_decade, limits, ..about })?;
+        let mut study = LoadStudy::new(LoadQuestion {
+            range,
+            per_decade: self.per_decade,
+            shaking: self.hold,
+            limits,
+            ..about
+        })?;
         complete(&mut study);
         failed(study.failure())?;
         let reached = || study.reached().iter().flatten().copied();
