@@ -7,7 +7,7 @@ use crate::model::materials::Ceramic;
 use crate::model::{Device, ElectricalScaling, Parameter};
 
 /// A steel beam of 60 mm with a ceramic patch and small neodymium magnets, shaken at 0.2 g near its first resonance
-/// into nearly its best load.
+/// into its best load there.
 const STEEL_BEAM: Device = Device {
     flux_density: 1.2,
     permeability: 1.256e-6,
@@ -24,7 +24,7 @@ const STEEL_BEAM: Device = Device {
     viscosity: 8.2e6,
     gravity: 9.8067,
     capacitance: 13e-9,
-    resistance: 3e5,
+    resistance: 18e3,
     coupling: 25e-6,
     base_amplitude: 2.75e-5,
     frequency: 42.5,
