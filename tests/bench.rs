@@ -1,6 +1,7 @@
 //! The requests of the design bench.
 
 use harvester_lab::jobs::solve;
+use harvester_lab::model::Device;
 use serde_json::{Value, json};
 
 fn answer(request: &Value) -> Value {
@@ -127,6 +128,41 @@ fn ceramics_trust_and_designs_are_answered() {
 }
 
 #[test]
+fn a_map_has_the_values_of_the_harvests_at_its_cells() {
+    let map = answer(&json!({
+        "task": "map", "parameters": figure_9(), "t_end": 200,
+        "x": {"name": "beta", "from": 0.001, "to": 0.012, "count": 3},
+        "y": {"name": "resistance", "from": 1e6, "to": 4e6, "count": 2, "logarithmic": true},
+        "limits": {"voltage": [10, 10]},
+    }));
+    assert_eq!(map["y"], json!([1e6, 4e6]));
+    let (x, y) = (list(&map["x"]), list(&map["y"]));
+    let unit = Device::default().resistance_of(1.0).expect("a load");
+    let mut best = None;
+    for (row, ohm) in y.iter().enumerate() {
+        for (column, beta) in x.iter().enumerate() {
+            let mut parameters = figure_9();
+            parameters["beta"] = beta.clone();
+            parameters["kappa"] = json!(unit / number(ohm));
+            let found = answer(&json!({"task": "harvest", "parameters": parameters, "t_end": 200}));
+            let (value, violation) = (&map["values"][row][column], number(&map["violation"][row][column]));
+            let Some(watts) = found["reached"]["harvest"]["power"].as_f64() else {
+                assert!(value.is_null() && violation > 0.0, "{map}");
+                continue;
+            };
+            assert!((number(value) / watts - 1.0).abs() < 1e-4, "{value} {watts}");
+            let peak = number(&found["reached"]["harvest"]["demand"]["v_peak"]);
+            assert!(violation > 0.0 || peak <= 10.001, "{peak} {violation}");
+            if violation == 0.0 && best.is_none_or(|best| watts > best) {
+                best = Some(watts);
+            }
+        }
+    }
+    let found = number(&map["best"]["evaluation"]["value"]);
+    assert!((found / best.expect("one keeps the limits") - 1.0).abs() < 1e-4, "{map}");
+}
+
+#[test]
 fn a_bad_request_names_the_field() {
     for (request, message) in [
         (json!({"task": "harvest", "device": {"beam_mass": -1.0}}), "beam_mass = -1 is out of range"),
@@ -139,6 +175,34 @@ fn a_bad_request_names_the_field() {
         (
             json!({"task": "find", "variables": [{"name": "colour", "from": 0, "to": 1}]}),
             "variables: colour: allowed are the ten numbers",
+        ),
+        (
+            json!({"task": "find", "variables": [
+                {"name": "resistance", "from": 1e5, "to": 1e6}, {"name": "resistance", "from": 1e5, "to": 1e7},
+            ]}),
+            "variables[1].name: `resistance` is varied already",
+        ),
+        (json!({"task": "harvest", "least": -1}), "least = -1 is out of range: allowed are 0 to"),
+        (json!({"task": "harvest", "limits": {"voltage": [10, 5]}}), "limits.voltage = 5 is out of range"),
+        (
+            json!({"task": "load", "from": 1e6, "to": 1e5}),
+            "to = 100000 is out of range: allowed are 1000000 to 1e15 ohm",
+        ),
+        (json!({"task": "load", "from": -1}), "from = -1 is out of range"),
+        (json!({"task": "load", "from": 1}), "from = 1 is out of range"),
+        (
+            json!({"task": "map", "x": {"name": "d", "from": 0.1, "to": 0.2, "count": 200},
+                "y": {"name": "omega", "from": 20, "to": 30, "count": 200}}),
+            "cells of the map = 40000 is not available: allowed are 4 to 16384",
+        ),
+        (
+            json!({"task": "map", "x": {"name": "gap", "from": 0.1, "to": 0.2},
+                "y": {"name": "omega", "from": 20, "to": 30}}),
+            "x.name: `gap` is not available",
+        ),
+        (
+            json!({"task": "map", "x": {"name": "d", "from": 0.1, "to": 0.2}, "y": {"name": "d", "from": 1, "to": 2}}),
+            "both sides of the chart are d",
         ),
     ] {
         let found = refusal(&request);

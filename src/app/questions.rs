@@ -93,7 +93,8 @@ pub(super) fn sweep_range(view: &View, session: &Session) -> (f64, f64) {
     let (minimum, maximum) = parameter.range();
     let (low, high) = view.sweep.range.unwrap_or_else(|| range_of(view, session, parameter));
     let (low, high) = (low.min(high).clamp(minimum, maximum), low.max(high).clamp(minimum, maximum));
-    let least = LEAST_SPAN * (maximum - minimum);
+    let usual = parameter.usual();
+    let least = LEAST_SPAN * (usual.1 - usual.0);
     if high - low >= least {
         (low, high)
     } else {

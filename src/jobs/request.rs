@@ -83,7 +83,7 @@ pub enum RequestError {
 }
 
 const TASKS: &str = "\"modes\", \"boundary\", \"simulate\", \"orbit\", \"chart\", \"sweep\", \"verdict\", \
-                     \"basin\", \"harvest\", \"load\", \"materials\", \"limits\", \"trust\", \"find\"";
+                     \"basin\", \"harvest\", \"load\", \"materials\", \"limits\", \"trust\", \"find\", \"map\"";
 
 /// A checked question.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Device, ModelError};
+use super::{Device, ModelError, Parameter};
 
 /// Which dimension of a [`Device`].
 #[derive(
@@ -165,6 +165,24 @@ impl Dimension {
         }
         let Entry { field, unit, accepted, .. } = self.entry();
         ModelError::check(field, value, accepted, unit)
+    }
+
+    /// The one of the ten numbers that decides this dimension of a device, the others given (Eq. 8); `None` where they
+    /// leave it open (see [`Device::from_parameters`]).
+    pub const fn decided_by(self) -> Option<Parameter> {
+        match self {
+            Self::Viscosity => Some(Parameter::Alpha),
+            Self::BaseAmplitude => Some(Parameter::Beta),
+            Self::Frequency => Some(Parameter::Omega),
+            Self::FluxDensity => Some(Parameter::C0),
+            Self::MagnetDistance => Some(Parameter::D),
+            Self::MagnetLength => Some(Parameter::H),
+            Self::TipMass => Some(Parameter::Eta),
+            Self::Capacitance => Some(Parameter::C),
+            Self::Resistance => Some(Parameter::Kappa),
+            Self::Coupling => Some(Parameter::Theta),
+            _ => None,
+        }
     }
 
     /// The dimension of this field name.

@@ -6,7 +6,9 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ModelError {
     /// A number lies outside the range in which the model is meant to be used.
-    #[error("{field} = {value} is out of range: allowed are {minimum} to {maximum}{unit}")]
+    #[error(
+        "{field} = {} is out of range: allowed are {} to {}{unit}", beyond(*value, *minimum, *maximum), digits(*minimum), digits(*maximum)
+    )]
     OutOfRange {
         /// Name of the input as the user sees it.
         field: String,
@@ -20,7 +22,7 @@ pub enum ModelError {
         unit: &'static str,
     },
     /// A number is NaN or infinite.
-    #[error("{field} is not a finite number: allowed are {minimum} to {maximum}{unit}")]
+    #[error("{field} is not a finite number: allowed are {} to {}{unit}", digits(*minimum), digits(*maximum))]
     NotFinite {
         /// Name of the input as the user sees it.
         field: String,
@@ -51,7 +53,7 @@ pub enum ModelError {
     },
     /// Attracting magnets pull the tip in: no equilibrium exists.
     #[error(
-        "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {c0} and h = {h} the gap d = {d:.4} must be larger than {smallest:.4}"
+        "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {} and h = {} the gap d = {d:.4} must be larger than {smallest:.4}", digits(*c0), digits(*h)
     )]
     PullIn {
         /// Magnet strength c_0 (dimensionless, negative: attracting).
@@ -65,14 +67,16 @@ pub enum ModelError {
     },
     /// The tip spring is so negative that the straight beam is unstable.
     #[error(
-        "the magnet softens the beam past buckling: c1 = {c1} must be greater than -3, the stiffness of the beam's tip"
+        "the magnet softens the beam past buckling: c1 = {} must be greater than -3, the stiffness of the beam's tip", digits(*c1)
     )]
     Buckled {
         /// Linear magnet stiffness c_1 (dimensionless).
         c1: f64,
     },
     /// The sag under gravity closes the gap of a device.
-    #[error("under gravity the tip sags {sag} m, which closes the magnets' distance of {distance} m")]
+    #[error(
+        "under gravity the tip sags {} m, which closes the magnets' distance of {} m", digits(*sag), digits(*distance)
+    )]
     GapClosed {
         /// Sag of the tip (m).
         sag: f64,
@@ -100,5 +104,39 @@ impl ModelError {
         } else {
             Ok(value)
         }
+    }
+}
+
+/// At most six significant digits, with an exponent where many zeros would stand.
+fn digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    let plain = rounded == 0.0 || !rounded.is_finite() || (1e-4..1e7).contains(&rounded.abs());
+    if plain { rounded.to_string() } else { format!("{rounded:e}") }
+}
+
+/// A value outside of its range in so many digits; in all where rounded it would seem allowed.
+fn beyond(value: f64, minimum: f64, maximum: f64) -> String {
+    let rounded = digits(value);
+    let seems_allowed = rounded.parse().is_ok_and(|rounded: f64| (minimum..=maximum).contains(&rounded));
+    if seems_allowed { value.to_string() } else { rounded }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_messages_are_short_but_never_seem_allowed() {
+        let message = |value, range| {
+            ModelError::check("d", value, range, " m")
+                .map_err(|error| error.to_string())
+                .err()
+                .unwrap_or_default()
+        };
+        let expected = "d = 5.63338 is out of range: allowed are 0.01 to 2 m";
+        assert_eq!(message(5.63337655769029, (0.01, 2.0)), expected);
+        assert_eq!(message(-1.0, (1e-15, 1e15)), "d = -1 is out of range: allowed are 1e-15 to 1e15 m");
+        let expected = "d = 2.000000001 is out of range: allowed are 0.01 to 2 m";
+        assert_eq!(message(2.000000001, (0.01, 2.0)), expected);
     }
 }

@@ -117,12 +117,21 @@ impl Parameter {
             Self::Beta => (0.0, 0.2),
             Self::Omega => (0.1, 500.0),
             Self::C0 => (-10.0, 10.0),
-            Self::D => (0.01, 2.0),
+            // Magnets far away, as on a short beam, are merely weak.
+            Self::D => (0.01, 100.0),
             Self::H => (1e-5, 1.0),
             Self::Eta => (0.0, 100.0),
             Self::C => (1e-9, 1e-2),
             Self::Kappa => (0.0, 1e-2),
             Self::Theta => (0.0, 1e-2),
+        }
+    }
+
+    /// Smallest and largest value a slider should offer (dimensionless). Wider values may be accepted.
+    pub const fn usual(self) -> (f64, f64) {
+        match self {
+            Self::D => (0.01, 2.0),
+            _ => self.range(),
         }
     }
 

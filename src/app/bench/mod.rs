@@ -8,7 +8,7 @@ use measured::Measured;
 use super::view::View;
 use crate::jobs::design::Operating;
 use crate::jobs::study::harvest::HarvestStudy;
-use crate::model::{Device, Dimension, Limits, ModelError};
+use crate::model::{Device, Dimension, ElectricalScaling, Limits, ModelError};
 use crate::scenario::{ModelChoice, Scenario};
 
 /// What the bench keeps beside the view.
@@ -34,6 +34,8 @@ pub(super) struct Pinned {
 
 /// Relative difference below which two dimensions are the same but for rounding.
 const ROUNDING: f64 = 1e-9;
+/// Relative difference from the paper's beam length beyond which a beam is another.
+const OWN_LENGTH: f64 = 1e-6;
 
 /// The device of `scenario`: its dimensions digit by digit as they were entered, where they still hold.
 ///
@@ -49,6 +51,12 @@ pub(super) fn device(scenario: &Scenario) -> Result<Device, ModelError> {
             })
     };
     Ok(scenario.device.filter(same).unwrap_or(derived))
+}
+
+/// Whether a device of one's own is scaled as the paper prints it, which counts its watts wrongly.
+pub(super) fn printed_for_own(device: &Device, scaling: ElectricalScaling) -> bool {
+    let paper = Device::default().beam_length;
+    scaling == ElectricalScaling::AsPrinted && (device.beam_length / paper - 1.0).abs() > OWN_LENGTH
 }
 
 /// What must be kept: the user's limits, with the voltage that the device's ceramic bears where none is given.

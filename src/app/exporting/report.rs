@@ -116,7 +116,7 @@ impl App {
 fn device_rows(view: &View) -> Vec<[String; 3]> {
     let Ok(found) = bench::device(&view.scenario) else { return Vec::new() };
     let row = |dimension: &Dimension| {
-        let (name, symbol, unit, factor, _) = device::words(*dimension);
+        let (name, symbol, unit, factor, _) = device::words(*dimension, view.scenario.scaling);
         let value = factor * dimension.get(&found);
         let value = if value.is_finite() {
             format!("{} {unit}", typographic(&exact(round_significant(value, 5))))

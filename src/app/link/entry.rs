@@ -2,7 +2,9 @@
 
 use super::Problem;
 use super::field::fields;
+use crate::app::bench;
 use crate::app::view::View;
+use crate::model::{Device, Dimension, ModelError};
 
 /// The entries of these names as text; names that links do not have are left out.
 pub fn entries(view: &View, names: &[&'static str]) -> Vec<(&'static str, String)> {
@@ -27,6 +29,12 @@ pub fn edit(view: &View, name: &str, text: &str) -> Result<View, Problem> {
     field.try_out(value.clone(), &new).map_err(problem)?;
     field.set(&mut value, &new);
     let mut edited = View::from_value(value).map_err(problem)?;
+    if let Some(device) = edited_device(view, name, &edited) {
+        let device = device.map_err(|error| problem(error.to_string()))?;
+        let scaling = view.scenario.scaling;
+        edited.scenario = view.scenario.clone();
+        edited.scenario.set_device(device, scaling).map_err(|error| problem(error.to_string()))?;
+    }
     let modes = edited.scenario.model.modes;
     if modes != view.scenario.model.modes {
         // A start state has as many numbers as the modes need.
@@ -38,6 +46,17 @@ pub fn edit(view: &View, name: &str, text: &str) -> Result<View, Problem> {
     }
     edited.check().map_err(|(_, reason)| problem(reason))?;
     Ok(edited)
+}
+
+/// The device in view with the entry `name` of the one stored in `edited`, where the ten numbers decide that entry;
+/// stored alone, it would play no role.
+fn edited_device(view: &View, name: &str, edited: &View) -> Option<Result<Device, ModelError>> {
+    let dimension = Dimension::named(name)?;
+    let stored = edited.scenario.device.filter(|_| dimension.decided_by().is_some())?;
+    Some(bench::device(&view.scenario).map(|mut device| {
+        *dimension.get_mut(&mut device) = dimension.get(&stored);
+        device
+    }))
 }
 
 #[cfg(test)]
@@ -62,6 +81,24 @@ mod tests {
         let names = edits.map(|(name, _)| name);
         let written = entries(&view, &names);
         assert_eq!(written, edits.map(|(name, text)| (name, text.to_owned())));
+    }
+
+    #[test]
+    fn a_dimension_that_the_ten_numbers_decide_sets_that_of_the_device_in_view() {
+        let before = View::default();
+        let device = before.scenario.device().expect("a device");
+        let edited = edit(&before, "frequency", "20").expect("in range");
+        let found = edited.scenario.device().expect("a device");
+        assert!((found.frequency / 20.0 - 1.0).abs() < 1e-12, "{found:?}");
+        assert!((found.base_amplitude / device.base_amplitude - 1.0).abs() < 1e-12);
+        let edited = edit(&edited, "resistance", "1e6").expect("in range");
+        let found = edited.scenario.device().expect("a device");
+        assert!((found.resistance / 1e6 - 1.0).abs() < 1e-12 && (found.frequency / 20.0 - 1.0).abs() < 1e-12);
+        let refusal = edit(&before, "frequency", "1e4").expect_err("beyond omega").to_string();
+        assert!(refusal.starts_with("frequency = 1e4 (omega = "), "{refusal}");
+        // What the numbers leave open keeps them, as in a link.
+        let longer = edit(&before, "beam_length", "0.6").expect("in range");
+        assert_eq!(longer.scenario.parameters, before.scenario.parameters);
     }
 
     #[test]

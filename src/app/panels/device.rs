@@ -2,6 +2,8 @@
 
 mod excitation;
 mod parts;
+mod presets;
+mod refusal;
 mod words;
 
 use egui::{RichText, Ui};
@@ -37,8 +39,8 @@ pub(super) fn choose_units(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 /// One compact slider for a dimension; its range is the usual one, widened to the present value.
-fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension) -> bool {
-    let (name, symbol, unit, factor, tooltip) = words(dimension);
+fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension, scaling: ElectricalScaling) -> bool {
+    let (name, symbol, unit, factor, tooltip) = words(dimension, scaling);
     let (low, high) = dimension.usual();
     let present = dimension.get(device);
     let present = if present.is_finite() { present } else { high };
@@ -68,8 +70,9 @@ fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension) -> bool {
 /// The slider for one dimension where there is nothing else of the device.
 pub(super) fn alone(context: &mut Context<'_>, ui: &mut Ui, dimension: Dimension) {
     let Some(mut device) = device_of(context, ui) else { return };
-    if slider(ui, &mut device, dimension) {
-        adopt(context, device, context.view.scenario.scaling);
+    let scaling = context.view.scenario.scaling;
+    if slider(ui, &mut device, dimension, scaling) {
+        adopt(context, device, scaling);
     }
 }
 
@@ -82,7 +85,8 @@ fn round(value: f64) -> f64 {
 pub(super) fn adopt(context: &mut Context<'_>, device: Device, scaling: ElectricalScaling) {
     let mut scenario = context.view.scenario.clone();
     let changed = scenario.set_device(device, scaling).and_then(|()| scenario.validate().map(|_| ()));
-    let taken = changed.map(|()| Box::new(scenario)).map_err(|error| error.to_string());
+    let refused = |error| refusal::in_words(&device, scaling, &error);
+    let taken = changed.map(|()| Box::new(scenario)).map_err(refused);
     context.commands.push(Command::Adopt(taken));
 }
 

@@ -85,8 +85,9 @@ pub(super) fn number(ui: &mut Ui, set: &mut ParameterSet, parameter: Parameter) 
         Parameter::Omega => (tr("Frequency"), "ω", tr("Angular frequency of the base's motion."), None),
     };
     let default = parameter.get(&ParameterSet::default());
-    let (low, high) = if parameter == Parameter::Omega { FREQUENCIES } else { parameter.range() };
+    let (low, high) = if parameter == Parameter::Omega { FREQUENCIES } else { parameter.usual() };
     let value = parameter.get_mut(set);
+    let (low, high) = (low.min(*value), high.max(*value));
     let slider = ParameterSlider::new(name, symbol, value, low..=high)
         .default_value(default)
         .tooltip(tooltip)

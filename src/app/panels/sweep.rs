@@ -106,8 +106,9 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
 fn ends(columns: &mut [Ui], sweep: &mut SweepView, range: (f64, f64)) {
     let (minimum, maximum) = match sweep.parameter {
         Parameter::Omega => FREQUENCIES,
-        parameter => parameter.range(),
+        parameter => parameter.usual(),
     };
+    let (minimum, maximum) = (minimum.min(range.0), maximum.max(range.1));
     let (_, symbol) = title(sweep.parameter);
     let (mut low, mut high) = range;
     let logarithmic = minimum >= 0.0 && sweep.parameter != Parameter::Omega;

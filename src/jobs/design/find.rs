@@ -187,7 +187,10 @@ fn lasting_at(question: &FindQuestion, plant: &Plant, omega: f64) -> Option<(Las
             let checks = limits.checks(&harvest.demand, Plant::gap(&system));
             let beyond = checks.iter().filter(|check| check.standing != Standing::Within);
             // What is just met, or is no number, counts as well.
-            beyond.map(|check| if check.margin < 0.0 { -check.margin } else { f64::MIN_POSITIVE }).sum()
+            let parts =
+                beyond.map(|check| if check.margin < 0.0 { -check.margin } else { f64::MIN_POSITIVE });
+            // The sum of nothing would be -0.
+            parts.fold(0.0, |sum, part| sum + part)
         }
     };
     Some((found, violation))

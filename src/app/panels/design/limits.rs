@@ -3,6 +3,7 @@
 use egui::{RichText, Ui};
 
 use super::safety::{self, Safety};
+use crate::app::bench;
 use crate::app::panels::Context;
 use crate::app::text::{fill, tr};
 use crate::app::theme;
@@ -88,5 +89,9 @@ fn checks(context: &Context<'_>, ui: &mut Ui) {
         };
         let text = format!("{sign}  {}", safety::in_words(&check));
         ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
+    }
+    if bench::limits(context.view).voltage.is_none() {
+        let text = format!("–  {}", tr("the voltage is not checked: no limit is known"));
+        ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
     }
 }

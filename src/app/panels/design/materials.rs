@@ -143,6 +143,8 @@ fn found(context: &Context<'_>, ui: &mut Ui, row: &MaterialRow) {
     let gap = context.session.boundaries.as_ref().and_then(|boundaries| boundaries.gap);
     let checks = limits.checks(&harvest.demand, gap);
     let colour = match safety::standing(&checks) {
+        // What is not checked is not safe.
+        Standing::Within if limits.voltage.is_none() => tokens.text_weak,
         Standing::Within => tokens.ok,
         Standing::Marginal => tokens.warning,
         Standing::Exceeded => tokens.danger,

@@ -100,7 +100,7 @@ fn result(context: &mut Context<'_>, ui: &mut Ui, study: &FindStudy, best: &Cand
     ui.label(RichText::new(text).small().color(tokens.text_weak));
     for (variable, value) in study.question().variables.iter().zip(&best.values) {
         if let crate::jobs::motions::Coordinate::Dimension(dimension) = variable.coordinate {
-            let (_, _, unit, factor, _) = device::words(dimension);
+            let (_, _, unit, factor, _) = device::words(dimension, study.question().scenario.scaling);
             let text = format!("{}: {} {unit}", varied::whose(dimension), significant(factor * value, 4));
             ui.label(RichText::new(text).small().color(tokens.text));
         }

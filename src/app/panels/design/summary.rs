@@ -195,6 +195,12 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
         ));
     }
     if let Ok(device) = bench::device(&context.view.scenario) {
+        if bench::printed_for_own(&device, context.view.scenario.scaling) {
+            remarks.push(
+                tr("the electrical scaling is the paper's: choose consistent units for a device of your own")
+                    .to_owned(),
+            );
+        }
         let sag = sag(&device);
         if sag.standing == Standing::Exceeded {
             let sags = safety::in_words(&sag);
@@ -210,7 +216,8 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
 
 /// A ratio of powers, be it a gain or a loss.
 fn times(ratio: f64) -> String {
-    if ratio >= 1.0 {
+    // Below that a part would round to 100 %.
+    if ratio >= 0.995 {
         fill("{ratio} times", &[("ratio", &significant(ratio, 3))])
     } else {
         fill("only {ratio} % of", &[("ratio", &significant(100.0 * ratio, 2))])

@@ -47,7 +47,8 @@ pub(in crate::app::panels) fn excitation(context: &mut Context<'_>, ui: &mut Ui)
             changed = changed.with_acceleration(acceleration);
         }
     } else {
-        let (name, symbol, unit, factor, tooltip) = words(Dimension::BaseAmplitude);
+        let (name, symbol, unit, factor, tooltip) =
+            words(Dimension::BaseAmplitude, context.view.scenario.scaling);
         let mut amplitude = round(factor * device.base_amplitude);
         let high = (factor * Dimension::BaseAmplitude.usual().1).max(amplitude);
         let acceleration = format!("{} g", short(device.acceleration()));

@@ -1,17 +1,16 @@
-//! Beam, magnets, circuit and ceramic, and the way back to the paper's device.
+//! Beam, magnets, circuit and ceramic, and devices to begin with.
 
 use egui::{RichText, Ui};
 
-use super::{adopt, device_of, slider, words};
-use crate::app::command::Command;
+use super::{adopt, device_of, presets, slider, words};
 use crate::app::panels::Context;
 use crate::app::panels::structure::model_and_start;
 use crate::app::text::tr;
-use crate::app::theme;
 use crate::app::widgets::number::{short, with_unit};
 use crate::app::widgets::{Fold, chips};
+use crate::app::{bench, theme};
 use crate::model::inverse::Magnets;
-use crate::model::{Device, Dimension, ElectricalScaling, Parameter};
+use crate::model::{Device, Dimension, ElectricalScaling};
 use crate::scenario::Scenario;
 
 /// Beam, magnets, circuit, ceramic, model and start.
@@ -19,8 +18,8 @@ pub(in crate::app::panels) fn structure(context: &mut Context<'_>, ui: &mut Ui) 
     if let Some(device) = device_of(context, ui) {
         let before = context.view.scenario.scaling;
         let (mut changed, mut scaling) = (device, before);
-        beam(ui, &mut changed);
-        magnets(ui, &mut changed);
+        beam(ui, &mut changed, scaling);
+        magnets(ui, &mut changed, scaling);
         circuit(ui, &mut changed, &mut scaling);
         if (changed, scaling) != (device, before) {
             adopt(context, changed, scaling);
@@ -32,11 +31,12 @@ pub(in crate::app::panels) fn structure(context: &mut Context<'_>, ui: &mut Ui) 
     if changed != scenario {
         context.edit(|scenario| *scenario = changed);
     }
-    paper(context, ui);
+    presets::buttons(context, ui);
 }
 
-fn beam(ui: &mut Ui, device: &mut Device) {
-    let of = |dimension: Dimension, device: &Device| short(words(dimension).3 * dimension.get(device));
+fn beam(ui: &mut Ui, device: &mut Device, scaling: ElectricalScaling) {
+    let of =
+        |dimension: Dimension, device: &Device| short(words(dimension, scaling).3 * dimension.get(device));
     let summary =
         format!("L {} mm  ·  {} g", of(Dimension::BeamLength, device), of(Dimension::BeamMass, device));
     Fold::new(tr("Beam")).summary(&summary).default_open(true).show(ui, |ui| {
@@ -49,12 +49,12 @@ fn beam(ui: &mut Ui, device: &mut Device) {
             Dimension::Viscosity,
             Dimension::Gravity,
         ] {
-            slider(ui, device, dimension);
+            slider(ui, device, dimension, scaling);
         }
     });
 }
 
-fn magnets(ui: &mut Ui, device: &mut Device) {
+fn magnets(ui: &mut Ui, device: &mut Device, scaling: ElectricalScaling) {
     let kinds = [
         (Magnets::Repelling, tr("repelling")),
         (Magnets::Attracting, tr("attracting")),
@@ -76,7 +76,7 @@ fn magnets(ui: &mut Ui, device: &mut Device) {
                 Dimension::MagnetArea,
                 Dimension::Permeability,
             ] {
-                slider(ui, device, dimension);
+                slider(ui, device, dimension, scaling);
             }
         });
     });
@@ -92,7 +92,7 @@ fn circuit(ui: &mut Ui, device: &mut Device, scaling: &mut ElectricalScaling) {
             Dimension::CeramicThickness,
             Dimension::LossTangent,
         ] {
-            slider(ui, device, dimension);
+            slider(ui, device, dimension, *scaling);
         }
         let choices = [
             (ElectricalScaling::AsPrinted, tr("as printed")),
@@ -112,21 +112,10 @@ fn circuit(ui: &mut Ui, device: &mut Device, scaling: &mut ElectricalScaling) {
         };
         let text = RichText::new(text).small().color(theme::tokens(ui).text_weak);
         ui.add(egui::Label::new(text).wrap());
+        if bench::printed_for_own(device, *scaling) {
+            let colour = theme::tokens(ui).warning;
+            let text = tr("This beam is not the paper's: choose consistent units.");
+            ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
+        }
     });
-}
-
-/// Back to the paper's device, which keeps its excitation.
-fn paper(context: &mut Context<'_>, ui: &mut Ui) {
-    ui.add_space(4.0);
-    if ui.button(tr("Table 1: the paper's device")).clicked() {
-        let own = context.view.scenario.parameters;
-        let mut scenario = context.view.scenario.clone();
-        let taken = scenario.set_device(Device::default(), ElectricalScaling::AsPrinted).map(|()| {
-            for parameter in [Parameter::Omega, Parameter::Beta, Parameter::Alpha] {
-                *parameter.get_mut(&mut scenario.parameters) = parameter.get(&own);
-            }
-            Box::new(scenario)
-        });
-        context.commands.push(Command::Adopt(taken.map_err(|error| error.to_string())));
-    }
 }

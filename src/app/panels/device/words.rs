@@ -1,13 +1,13 @@
 //! How the dimensions of a device are called, written and shown.
 
 use crate::app::text::tr;
-use crate::model::Dimension;
+use crate::model::{Dimension, ElectricalScaling};
 
 /// Name, symbol, unit with its factor, what it is.
 type Words = (&'static str, &'static str, &'static str, f64, &'static str);
 
 /// The words of a dimension; the coupling's unit depends on the scaling.
-pub(in crate::app) fn words(dimension: Dimension) -> Words {
+pub(in crate::app) fn words(dimension: Dimension, scaling: ElectricalScaling) -> Words {
     match dimension {
         Dimension::FluxDensity => {
             (tr("Flux density"), "ρ", "T", 1.0, tr("Residual flux density of the magnets."))
@@ -36,7 +36,13 @@ pub(in crate::app) fn words(dimension: Dimension) -> Words {
         }
         Dimension::Capacitance => (tr("Capacity"), "C", "nF", 1e9, tr("Capacitance C_eq of the ceramic.")),
         Dimension::Resistance => (tr("Load"), "R", "MΩ", 1e-6, tr("Load resistance R_eq.")),
-        Dimension::Coupling => (tr("Coupling"), "Θ", "µN/V", 1e6, tr("Electromechanical coupling.")),
+        Dimension::Coupling => {
+            let unit = match scaling {
+                ElectricalScaling::AsPrinted => "µN/V",
+                ElectricalScaling::Consistent => "µN m/V",
+            };
+            (tr("Coupling"), "Θ", unit, 1e6, tr("Electromechanical coupling."))
+        }
         Dimension::BaseAmplitude => (tr("Amplitude"), "B", "mm", 1e3, tr("Amplitude of the base's motion.")),
         Dimension::Frequency => (tr("Frequency"), "f", "Hz", 1.0, tr("Frequency of the base's motion.")),
         Dimension::CeramicThickness => (

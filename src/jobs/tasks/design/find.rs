@@ -80,6 +80,12 @@ impl FindTask {
             })?;
             Ok(Variable { coordinate, range: (named.from, named.to), logarithmic: named.logarithmic })
         };
+        for (i, named) in self.variables.iter().enumerate() {
+            if self.variables[..i].iter().any(|other| other.name == named.name) {
+                let problem = format!("`{}` is varied already", named.name);
+                return Err(RequestError::Field { field: format!("variables[{i}].name"), problem });
+            }
+        }
         let variables = self.variables.iter().map(variable).collect::<Result<_, RequestError>>()?;
         let question = FindQuestion { scenario, variables, objective: self.objective, limits: self.limits };
         let mut study = FindStudy::new(question, self.generations, self.seed)?;

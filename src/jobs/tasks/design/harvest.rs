@@ -121,6 +121,10 @@ pub struct Band {
 
 impl HarvestTask {
     pub(super) fn answer(&self, scenario: Scenario) -> Result<HarvestAnswer, RequestError> {
+        if let Some(least) = self.least {
+            ModelError::check("least", least, (0.0, 1e6), " W")?;
+        }
+        self.limits.validate()?;
         let operating = operating(&scenario)?;
         let curves = self.frequency.map(|frequency| self.curves(scenario, frequency)).transpose()?;
         Ok(HarvestAnswer { operating, curves })

@@ -9,8 +9,11 @@ use crate::jobs::design::load::{BestFrequency, LoadPoint, best};
 use crate::jobs::design::{Bounds, Plant};
 use crate::jobs::study::complete;
 use crate::jobs::study::load::{LoadQuestion, LoadStudy};
-use crate::model::{Limits, Shaking};
+use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
+
+/// Highest resistance of a curve (ohm).
+const MOST_OHMS: f64 = 1e15;
 
 /// Power against the load.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
@@ -65,11 +68,16 @@ pub struct LoadAnswer {
 
 impl LoadTask {
     pub(super) fn answer(&self, scenario: Scenario) -> Result<LoadAnswer, RequestError> {
+        self.limits.validate()?;
         let plant = Plant::new(&scenario)?;
         let window = self.window.map(|window| window.window(&plant)).transpose()?;
         let about = LoadQuestion::about(scenario, window)?;
         let low = self.from.unwrap_or(about.range.0);
         let range = (low, self.to.unwrap_or(if self.from.is_some() { 1e6 * low } else { about.range.1 }));
+        // The study does not know how the request names these. The largest conductance taken ends the range.
+        let lowest = 1.0 / (plant.units.power * Parameter::Kappa.range().1);
+        ModelError::check("from", range.0, (lowest, MOST_OHMS), " ohm")?;
+        ModelError::check("to", range.1, (range.0 * (1.0 + 1e-9), MOST_OHMS), " ohm")?;
         let limits = self.limits.completed(&about.scenario.base());
         let bounds = Bounds::new(&plant, limits)?;
         let mut study = LoadStudy::new(LoadQuestion {

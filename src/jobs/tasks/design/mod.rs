@@ -13,6 +13,7 @@ mod find;
 mod harvest;
 mod limits;
 mod load;
+mod map;
 mod materials;
 mod trust;
 
@@ -20,6 +21,7 @@ pub use find::{FindAnswer, FindTask};
 pub use harvest::{HarvestAnswer, HarvestTask};
 pub use limits::LimitsAnswer;
 pub use load::{LoadAnswer, LoadTask};
+pub use map::{MapAnswer, MapTask};
 pub use materials::{MaterialsAnswer, MaterialsTask};
 pub use trust::{TrustAnswer, TrustTask};
 
@@ -104,6 +106,8 @@ pub enum Task {
     Trust(TrustTask),
     /// A better design.
     Find(FindTask),
+    /// An objective over two variables.
+    Map(MapTask),
 }
 
 /// A request of the bench.
@@ -131,6 +135,8 @@ pub enum DesignAnswer {
     Trust(TrustAnswer),
     /// A design.
     Find(Box<FindAnswer>),
+    /// A map.
+    Map(MapAnswer),
 }
 
 impl DesignRequest {
@@ -154,6 +160,7 @@ impl DesignRequest {
             "limits" => Task::Limits(read(own)?),
             "trust" => Task::Trust(read(own)?),
             "find" => Task::Find(read(own)?),
+            "map" => Task::Map(read(own)?),
             _ => return Ok(None),
         };
         Ok(Some(Self { subject: read(part(true))?, task }))
@@ -172,6 +179,7 @@ impl DesignRequest {
             Task::Limits(limits) => DesignAnswer::Limits(LimitsAnswer::new(*limits, &scenario)?),
             Task::Trust(task) => DesignAnswer::Trust(task.answer(&scenario)?),
             Task::Find(task) => DesignAnswer::Find(Box::new(task.answer(scenario)?)),
+            Task::Map(task) => DesignAnswer::Map(task.answer(scenario)?),
         };
         Ok(Answer::Design(answer))
     }

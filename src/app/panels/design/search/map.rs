@@ -16,7 +16,7 @@ use crate::app::{bench, colours, theme};
 use crate::jobs::design::find::{Evaluation, Objective};
 use crate::jobs::study::Study as _;
 use crate::jobs::study::map::DesignMap;
-use crate::model::Dimension;
+use crate::model::{Dimension, ElectricalScaling};
 
 /// Draws the map's card.
 pub(in crate::app::panels::design) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -84,8 +84,8 @@ fn extremes(map: &DesignMap) -> (f64, f64) {
     (if low.is_finite() { low } else { 0.0 }, high)
 }
 
-fn axis(dimension: Dimension, logarithmic: bool) -> Axis {
-    let (name, symbol, unit, ..) = device::words(dimension);
+fn axis(dimension: Dimension, logarithmic: bool, scaling: ElectricalScaling) -> Axis {
+    let (name, symbol, unit, ..) = device::words(dimension, scaling);
     let axis = Axis::new(within(name), symbol).unit(unit);
     if logarithmic { axis.logarithmic() } else { axis }
 }
@@ -110,8 +110,9 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let picture = hatched(ui, Id::unique("design map"), revision, map.size(), &paint);
     let variables = &map.question().variables;
     let sides = search.sides.map(|side| side.dimension);
-    let factors = sides.map(|dimension| device::words(dimension).3);
-    let axes = [0, 1].map(|i| axis(sides[i], variables[i].logarithmic));
+    let scaling = map.question().scenario.scaling;
+    let factors = sides.map(|dimension| device::words(dimension, scaling).3);
+    let axes = [0, 1].map(|i| axis(sides[i], variables[i].logarithmic, scaling));
     let place = |i: usize, value: f64| axes[i].coordinate(factors[i] * value);
     let range = |i: usize| (place(i, variables[i].range.0), place(i, variables[i].range.1));
     let (x, y) = (range(0), range(1));

@@ -9,7 +9,7 @@ use crate::app::theme;
 use crate::app::view::design::Side;
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::{ParameterSlider, chips};
-use crate::model::Dimension;
+use crate::model::{Dimension, ElectricalScaling};
 
 /// Two dimensions for the map, and a third for the search.
 pub(super) fn sides(context: &mut Context<'_>, ui: &mut Ui) {
@@ -45,7 +45,7 @@ pub(super) fn sides(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// A dimension to choose, and its range.
 fn side(context: &Context<'_>, ui: &mut Ui, name: &str, side: &mut Side) {
-    let (text, _, unit, factor, _) = device::words(side.dimension);
+    let (text, _, unit, factor, _) = device::words(side.dimension, context.view.scenario.scaling);
     ui.push_id(name, |ui| {
         ui.horizontal(|ui| {
             let colour = theme::tokens(ui).text_weak;
@@ -79,7 +79,8 @@ fn side(context: &Context<'_>, ui: &mut Ui, name: &str, side: &mut Side) {
 
 /// A dimension's name with what it belongs to.
 pub(super) fn whose(dimension: Dimension) -> String {
-    let (name, ..) = device::words(dimension);
+    // The name is the same under both scalings.
+    let (name, ..) = device::words(dimension, ElectricalScaling::default());
     let of = match dimension {
         Dimension::FluxDensity
         | Dimension::MagnetLength

@@ -1,0 +1,84 @@
+//! Devices to begin with: the paper's, and a small one of one's own.
+
+use super::Context;
+use crate::app::command::Command;
+use crate::app::text::tr;
+use crate::model::materials::Ceramic;
+use crate::model::{Device, ElectricalScaling, Parameter};
+
+/// A steel beam of 60 mm with a ceramic patch and small neodymium magnets, shaken at 0.2 g near its first resonance
+/// into its best load there.
+const STEEL_BEAM: Device = Device {
+    flux_density: 1.2,
+    permeability: 1.256e-6,
+    magnet_length: 5e-3,
+    magnet_radius: 2.5e-3,
+    magnet_area: 1.9635e-5,
+    repelling: true,
+    magnet_distance: 20e-3,
+    beam_length: 60e-3,
+    beam_mass: 1.41e-3,
+    tip_mass: 0.74e-3,
+    youngs_modulus: 200e9,
+    second_moment: 2.25e-14,
+    viscosity: 8.2e6,
+    gravity: 9.8067,
+    capacitance: 13e-9,
+    resistance: 18e3,
+    coupling: 25e-6,
+    base_amplitude: 2.75e-5,
+    frequency: 42.5,
+    ceramic_thickness: 0.2e-3,
+    loss_tangent: 0.02,
+    ceramic: Some(Ceramic::Apc850),
+};
+
+/// The buttons.
+pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
+    ui.add_space(4.0);
+    let mut taken = None;
+    ui.horizontal_wrapped(|ui| {
+        if ui.button(tr("Table 1: the paper's device")).clicked() {
+            // It keeps its excitation.
+            let own = context.view.scenario.parameters;
+            let mut scenario = context.view.scenario.clone();
+            taken = Some(scenario.set_device(Device::default(), ElectricalScaling::AsPrinted).map(|()| {
+                for parameter in [Parameter::Omega, Parameter::Beta, Parameter::Alpha] {
+                    *parameter.get_mut(&mut scenario.parameters) = parameter.get(&own);
+                }
+                scenario
+            }));
+        }
+        if ui.button(tr("60 mm steel beam")).clicked() {
+            let mut scenario = context.view.scenario.clone();
+            taken = Some(scenario.set_device(STEEL_BEAM, ElectricalScaling::Consistent).map(|()| scenario));
+        }
+    });
+    if let Some(taken) = taken {
+        context.commands.push(Command::Adopt(taken.map(Box::new).map_err(|error| error.to_string())));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::jobs::design::{Plant, operating};
+    use crate::model::Limits;
+    use crate::model::limits::{Check, Standing, sag};
+    use crate::scenario::Scenario;
+
+    #[test]
+    fn the_steel_beam_resonates_within_its_limits_and_delivers_microwatts() {
+        let mut scenario = Scenario::default();
+        scenario.set_device(STEEL_BEAM, ElectricalScaling::Consistent).expect("a device");
+        let (system, _) = scenario.validate().expect("a device");
+        let first = system.modes.iter().next().map(|mode| scenario.units().hertz(mode.omega));
+        assert!(first.is_some_and(|hertz| (STEEL_BEAM.frequency / hertz - 1.0).abs() < 0.05), "{first:?}");
+        assert!((STEEL_BEAM.acceleration() / 0.2 - 1.0).abs() < 0.01, "{}", STEEL_BEAM.acceleration());
+        let harvest = operating(&scenario).expect("a device").reached.harvest.expect("it lasts");
+        assert!((1e-6..1e-2).contains(&harvest.power), "{}", harvest.power);
+        let checks = Limits::of(&STEEL_BEAM).checks(&harvest.demand, Plant::gap(&system));
+        let within = |check: &Check| check.standing == Standing::Within;
+        assert!(checks.len() > 2 && checks.iter().all(within) && within(&sag(&STEEL_BEAM)), "{checks:?}");
+    }
+}
