@@ -138,7 +138,7 @@ fn a_bad_request_gets_status_2_and_one_line_that_names_the_field() {
         (r#"{"task":"orbit","periods":65}"#, &["periods", "65", "1 to 64"]),
         (
             r#"{"task":"boundary","resonance":"sum","theory":"floquet","omega":[25],"limit":1}"#,
-            &["limit", "1", "0.000001 to 0.2"],
+            &["limit", "1", "1e-6 to 0.2"],
         ),
         (
             r#"{"task":"boundary","resonance":"sum","theory":"floquet","omega":[25],"model":{"modes":1}}"#,

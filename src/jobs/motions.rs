@@ -241,6 +241,6 @@ mod tests {
         assert_eq!(found[0], None);
         let motion = found[1].as_ref().map(|signature| signature.cell.motion);
         assert_eq!(motion, Some(Motion::Periodic { periods: 1 }));
-        assert!(plane.motions(&[[3.0, 0.0]]).is_err());
+        assert!(plane.motions(&[[300.0, 0.0]]).is_err());
     }
 }
