@@ -11,6 +11,8 @@ use crate::app::theme::{self, Tokens};
 /// Points of the screen from line to line of the hatching, and most that a cell is drawn with on a side.
 const PERIOD: usize = 12;
 const MOST: usize = 40;
+/// Most pixels of a picture, roughly: it is painted anew whenever some of its cells become known.
+const PIXELS: f32 = 250_000.0;
 
 /// A picture whose cells are about as many pixels wide and high as they are points on the screen, so that lines in it
 /// are seen as lines whatever the number of cells.
@@ -36,6 +38,7 @@ pub fn hatched(
 ) -> Option<Hatched> {
     let (columns, rows) = size;
     let room = ui.available_size();
+    let room = room * (PIXELS / (room.x * room.y).max(1.0)).sqrt().min(1.0);
     let side = |points: f32, count: usize| ((points / count.max(1) as f32).round() as usize).clamp(1, MOST);
     let sides = [side(room.x, columns), side(room.y, rows)];
     let tokens = theme::tokens(ui);
@@ -85,12 +88,13 @@ mod tests {
     #[test]
     fn hatching_has_the_same_lines_however_many_cells_there_are() {
         for count in [3, 60, 500] {
-            let mut harness = Harness::new(400.0, 300.0);
+            let mut harness = Harness::new(1600.0, 900.0);
             harness.settle(|ui| {
                 let half = |column: usize, _: usize| Some((Color32::BLUE, column >= count / 2));
                 let picture = hatched(ui, Id::unique("half"), 1, (count, count), &half).expect("a picture");
                 let [width, height] = picture.texture.size();
-                assert!(width % count == 0 && height % count == 0 && width.max(height) <= 560.max(count));
+                assert!(width % count == 0 && height % count == 0 && width.max(height) <= 1700.max(count));
+                assert!(width * height <= 2 * PIXELS as usize, "{width} x {height}");
             });
         }
         let tokens = theme::tokens_in(&egui::Context::default());
