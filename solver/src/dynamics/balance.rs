@@ -132,7 +132,7 @@ impl<'a> Reader<'a> {
     fn balance(&self, propagator: &super::propagator::Propagator, gained: f64) -> Balance {
         let [input, viscous, electrical, square] = self.integrals.map(|integral| integral / self.duration);
         let [high, low] = self.tip.each_ref().map(|highest| highest.value(propagator));
-        let largest = |both: &[Highest; 2]| both[0].value(propagator).max(both[1].value(propagator));
+        let largest = |both| Highest::larger(both, propagator);
         Balance {
             input,
             viscous,

@@ -128,6 +128,11 @@ impl Highest {
         value
     }
 
+    /// The larger value of a scalar and of its negative, as [`Self::value`].
+    pub(super) fn larger(both: &[Self; 2], propagator: &Propagator) -> f64 {
+        both[0].value(propagator).max(both[1].value(propagator))
+    }
+
     /// The scalar and its rate of change at `place`, a fraction of the candidate's step.
     fn read(&self, candidate: &Candidate, place: f64, propagator: &Propagator) -> (f64, f64) {
         let part = propagator.part();

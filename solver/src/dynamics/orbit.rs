@@ -209,7 +209,7 @@ impl Observer {
         let mean = self.square / self.steps;
         let (tip_min, tip_max, v_peak, slope) = match &self.propagator {
             Some(propagator) => {
-                let largest = |both: &[Highest; 2]| both[0].value(propagator).max(both[1].value(propagator));
+                let largest = |both| Highest::larger(both, propagator);
                 let (low, high) = (-self.lowest.value(propagator), self.highest.value(propagator));
                 (low, high, largest(&self.voltage), largest(&self.slope))
             }

@@ -123,7 +123,7 @@ impl Collector {
 
     /// The numbers so far, where `propagator` is that of the run; `None` before the window was reached.
     pub fn summary(&self, propagator: &Propagator) -> Option<Summary> {
-        let largest = |both: &[Highest; 2]| both[0].value(propagator).max(both[1].value(propagator));
+        let largest = |both| Highest::larger(both, propagator);
         (self.duration > 0.0).then(|| {
             let v_peak = largest(&self.voltage);
             Summary {
