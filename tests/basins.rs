@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use harvester_lab::dynamics::{Horizon, Motion, Orbit, reach};
+use harvester_lab::dynamics::{Effort, Motion, Orbit, reach};
 use harvester_lab::jobs::study::basin::{Attractor, Basin, BasinQuestion};
 use harvester_lab::jobs::study::{Study, complete};
 use harvester_lab::model::{ParameterSet, ReducedSystem};
@@ -35,7 +35,7 @@ fn basins(question: BasinQuestion) -> Result<(Basin, Vec<Attractor>), Box<dyn st
     let numbers: BTreeSet<usize> = attractors.iter().map(|attractor| attractor.number).collect();
     assert_eq!(numbers, (0..attractors.len()).collect());
     for attractor in &attractors {
-        let reached = reach(&system, &attractor.start, Horizon::chart(600.0))?.cell();
+        let reached = reach(&system, &attractor.start, Effort::cell())?.cell();
         assert!(reached.motion.same_class(&attractor.cell.motion), "{attractor:?}: {reached:?}");
         assert!((reached.v_rms - attractor.cell.v_rms).abs() <= 0.05 * reached.v_rms, "{attractor:?}");
     }
@@ -60,7 +60,6 @@ fn figure_4_has_a_torus_a_stable_forced_motion_and_escape() -> TestResult {
         x: (0, (q - gap, q + gap)),
         y: (2, (rate - gap * OMEGA_1, rate + gap * OMEGA_1)),
         size: (13, 13),
-        t_end: 600.0,
     };
     let (basin, attractors) = basins(question)?;
     let (torus, escape) = (Motion::Quasiperiodic, Motion::Escape { time: 0.0 });
@@ -76,7 +75,7 @@ fn figure_4_has_a_torus_a_stable_forced_motion_and_escape() -> TestResult {
         assert!((a - b).abs() < 1e-7, "{attractor:?}");
     }
     // A plane through rest: the figure's own start leads to the torus, and to the same one.
-    let question = BasinQuestion::first_mode(scenario(omega, None), (5, 5), 600.0)?;
+    let question = BasinQuestion::first_mode(scenario(omega, None), (5, 5))?;
     let (basin, from_rest) = basins(question)?;
     let middle = basin.shown(2, 2).flatten().ok_or("a motion")?;
     assert_eq!(from_rest[middle].cell.motion, torus);
@@ -89,7 +88,7 @@ fn figure_4_has_a_torus_a_stable_forced_motion_and_escape() -> TestResult {
 fn figure_9_has_one_motion_of_period_2_although_both_its_phases_are_reached() -> TestResult {
     let scenario = scenario(2.0 * OMEGA_1, None);
     let (system, _) = scenario.validate()?;
-    let mut question = BasinQuestion::first_mode(scenario, (11, 11), 600.0)?;
+    let mut question = BasinQuestion::first_mode(scenario, (11, 11))?;
     let (basin, attractors) = basins(question.clone())?;
     let double = with_motion(&attractors, Motion::Periodic { periods: 2 });
     assert_eq!((double.len(), attractors.len()), (1, 2), "{attractors:?}");
@@ -103,7 +102,7 @@ fn figure_9_has_one_motion_of_period_2_although_both_its_phases_are_reached() ->
         let leads_there = basin.shown(column, row).flatten().is_some_and(|i| attractors[i] == *found);
         if leads_there {
             let [q, rate] = question.motions().place((column, row));
-            let reached = reach(&system, &[q, 0.0, rate, 0.0, 0.0], Horizon::full(600.0))?;
+            let reached = reach(&system, &[q, 0.0, rate, 0.0, 0.0], Effort::full())?;
             let periods = (reached.time / system.parameters.period()).round() as u64;
             let near = (reached.state[0] - found.start[0]).abs() < 1e-3;
             phases.insert(near == periods.is_multiple_of(2));

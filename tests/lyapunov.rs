@@ -4,7 +4,7 @@
 
 use harvester_lab::dynamics::lyapunov::{LEAST_PERIODS, Progress, Sign};
 use harvester_lab::dynamics::rk4::RungeKutta4;
-use harvester_lab::dynamics::{Exponent, Horizon, Lyapunov, Orbit, Outcome, Settings, Trajectory, reach};
+use harvester_lab::dynamics::{Effort, Exponent, Lyapunov, Orbit, Outcome, Settings, Trajectory, reach};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 
 type TestResult = Result<(), Box<dyn std::error::Error>>;
@@ -35,7 +35,7 @@ fn on_a_stable_orbit_it_is_that_of_the_multipliers() -> TestResult {
         (1e-4, 1e-2, 2.0 * OMEGA_1, None),
     ] {
         let system = system(alpha, beta, omega, ForceLaw::Quadratic)?;
-        let reached = reach(&system, &[0.0; 5], Horizon::full(600.0))?;
+        let reached = reach(&system, &[0.0; 5], Effort::full())?;
         let orbit = reached.orbit.ok_or("periodic")?;
         let found = exponent(&system, &orbit.state, 4096)?;
         let time = system.parameters.period() * orbit.periods as f64;

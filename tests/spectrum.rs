@@ -8,7 +8,7 @@ use harvester_lab::dynamics::motion::Motion;
 use harvester_lab::dynamics::rk4::RungeKutta4;
 use harvester_lab::dynamics::spectral_label::{Frequencies, Label};
 use harvester_lab::dynamics::spectrum::{Spectrum, SpectrumError};
-use harvester_lab::dynamics::{Horizon, VoltageSpectrum, reach};
+use harvester_lab::dynamics::{Effort, VoltageSpectrum, reach};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 use nalgebra::Complex;
 
@@ -120,7 +120,7 @@ fn system(beta: f64, omega: f64) -> Answer<ReducedSystem> {
 #[test]
 fn the_lines_of_figure_9_are_the_fourier_coefficients_of_its_orbit() -> TestResult {
     let system = system(1e-2, 2.0 * OMEGA_1)?;
-    let reached = reach(&system, &[0.0; 5], Horizon::full(600.0))?;
+    let reached = reach(&system, &[0.0; 5], Effort::full())?;
     let orbit = reached.orbit.ok_or("periodic")?;
     // Equal samples of the orbit by Runge-Kutta: their sums converge faster than any power.
     let steps = 2000;
@@ -156,7 +156,7 @@ fn the_lines_of_figure_9_are_the_fourier_coefficients_of_its_orbit() -> TestResu
 #[test]
 fn the_second_frequency_of_figure_4_is_the_turning_of_its_stroboscopic_points() -> TestResult {
     let system = system(1e-2, OMEGA_1 + OMEGA_2)?;
-    let reached = reach(&system, &[0.0; 5], Horizon::full(600.0))?;
+    let reached = reach(&system, &[0.0; 5], Effort::full())?;
     let found = VoltageSpectrum::of(&system, &reached.state, Motion::Quasiperiodic)?;
     let basic = found.basic.ok_or("a torus has a second frequency")?;
     assert!(found.share > 0.999, "{}", found.share);
@@ -232,8 +232,9 @@ fn labels_are_exact_relations_or_near_combinations() {
     let Some(Label::Own { shift, .. }) = frequencies.own_label(4.0375) else { panic!("near the first") };
     assert!((shift + 0.01).abs() < 1e-4, "{shift}");
     for (label, text) in [
-        (Label::Torus { excitation: 1, basic: -2 }, "ω − 2ν"),
-        (Label::Torus { excitation: -1, basic: 3 }, "3ν − ω"),
+        (Label::Torus { excitation: 1, denominator: 1, basic: -2 }, "ω − 2ν"),
+        (Label::Torus { excitation: 3, denominator: 2, basic: 1 }, "3ω/2 + ν"),
+        (Label::Torus { excitation: -1, denominator: 1, basic: 3 }, "3ν − ω"),
         (Label::Excitation { numerator: 5, denominator: 2 }, "5ω/2"),
         (Label::Own { excitation: 1, first: -1, second: 0, shift: 0.0 }, "ω − ω₁′"),
     ] {

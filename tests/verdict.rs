@@ -5,9 +5,7 @@
 use harvester_lab::dynamics::evidence::Source;
 use harvester_lab::dynamics::rk4::RungeKutta4;
 use harvester_lab::dynamics::verdict::{OtherStart, Warning, force_law_warning};
-use harvester_lab::dynamics::{
-    ForcedMotion, Inquiry, Instability, Motion, Orbit, Verdict, largest_multipliers,
-};
+use harvester_lab::dynamics::{ForcedMotion, Instability, Motion, Orbit, Verdict, largest_multipliers};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 
 type TestResult = Result<(), Box<dyn std::error::Error>>;
@@ -53,10 +51,8 @@ fn settled_voltage(system: &ReducedSystem) -> Answer<f64> {
 fn figure_3_is_the_stable_forced_motion() -> TestResult {
     let verdict = Verdict::of(&system(1e-3, 1e-3, 25.0, ForceLaw::Quadratic)?, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, PERIOD_1);
-    assert_eq!(
-        sources(&verdict),
-        [Source::Multipliers, Source::Recurrence, Source::Exponent, Source::Spectrum]
-    );
+    // The run ends as soon as it is in the motion's reach, while its points still settle.
+    assert_eq!(sources(&verdict), [Source::Multipliers, Source::Exponent, Source::Spectrum]);
     let forced = verdict.forced.ok_or("forced")?;
     assert!(forced.stable && (forced.multiplier.modulus - 0.996743).abs() < 1e-6, "{forced:?}");
     assert!(verdict.multiplier.is_some_and(|multiplier| (multiplier.modulus - 0.996743).abs() < 1e-6));
@@ -87,7 +83,17 @@ fn figure_4_is_a_torus_and_says_what_coexists() -> TestResult {
     let system = strong(OMEGA_1 + OMEGA_2)?;
     let verdict = Verdict::of(&system, &[0.0; 5], 605.0)?;
     assert_eq!(verdict.motion, Motion::Quasiperiodic);
-    assert_eq!(sources(&verdict), [Source::Recurrence, Source::Points, Source::Exponent, Source::Spectrum]);
+    assert_eq!(
+        sources(&verdict),
+        [
+            Source::Recurrence,
+            Source::Points,
+            Source::Rotation,
+            Source::ZeroOne,
+            Source::Exponent,
+            Source::Spectrum
+        ]
+    );
     let forced = verdict.forced.ok_or("forced")?;
     assert!(forced.stable && (forced.multiplier.modulus - 0.999378).abs() < 1e-6, "{forced:?}");
     assert_eq!((forced.instability, forced.unstable_from), (None, None));
@@ -109,10 +115,8 @@ fn figure_4_is_a_torus_and_says_what_coexists() -> TestResult {
 fn figure_9_has_period_2_where_the_forced_motion_has_doubled() -> TestResult {
     let verdict = Verdict::of(&strong(2.0 * OMEGA_1)?, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, Motion::Periodic { periods: 2 });
-    assert_eq!(
-        sources(&verdict),
-        [Source::Multipliers, Source::Recurrence, Source::Exponent, Source::Spectrum]
-    );
+    // The run ends as soon as it is in the motion's reach, while its points still settle.
+    assert_eq!(sources(&verdict), [Source::Multipliers, Source::Exponent, Source::Spectrum]);
     let forced = verdict.forced.ok_or("forced")?;
     assert!((forced.multiplier.re + 1.148382).abs() < 1e-6, "{forced:?}");
     assert_eq!((forced.stable, forced.instability), (false, Some(Instability::PeriodDoubling)));
@@ -152,36 +156,16 @@ fn figure_12_escapes_beside_a_stable_forced_motion() -> TestResult {
 
 #[test]
 fn chaos_rests_on_its_exponent_and_its_spectrum() -> TestResult {
-    let verdict = Verdict::of(&system(1e-4, 0.008, 20.0, ForceLaw::Exact)?, &[0.0; 5], 600.0)?;
+    let verdict = Verdict::of(&system(1e-4, 0.05, 11.0, ForceLaw::Exact)?, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, Motion::Chaotic);
-    assert_eq!(sources(&verdict), [Source::Recurrence, Source::Exponent, Source::Spectrum]);
+    assert_eq!(sources(&verdict), [Source::Recurrence, Source::ZeroOne, Source::Exponent, Source::Spectrum]);
     assert!(verdict.warnings.iter().any(|warning| matches!(warning, Warning::LargeDeflection { .. })));
     Ok(())
 }
 
 #[test]
-fn slices_come_to_the_same_verdict() -> TestResult {
-    let system = strong(2.0 * OMEGA_1)?;
-    let whole = Verdict::of(&system, &[0.0; 5], 300.0)?;
-    let mut inquiry = Inquiry::new(&system, &[0.0; 5], 300.0)?;
-    let mut stages = vec![inquiry.doing()];
-    let sliced = loop {
-        let found = inquiry.advance(512)?;
-        if stages.last() != Some(&inquiry.doing()) {
-            stages.push(inquiry.doing());
-        }
-        if let Some(verdict) = found {
-            break verdict;
-        }
-    };
-    assert_eq!(
-        (sliced.motion, &sliced.coexists, &sliced.peaks),
-        (whole.motion, &whole.coexists, &whole.peaks)
-    );
-    assert_eq!(stages.len(), 5, "{stages:?}");
-    assert_eq!(inquiry.advance(512)?, None);
-    // It can be sent to a page.
-    let text = serde_json::to_string(&whole)?;
+fn a_verdict_is_written_as_json() -> TestResult {
+    let text = serde_json::to_string(&Verdict::of(&strong(2.0 * OMEGA_1)?, &[0.0; 5], 300.0)?)?;
     assert!(text.contains(r#""motion":{"kind":"periodic","periods":2}"#), "{text}");
     Ok(())
 }

@@ -37,15 +37,14 @@ pub(super) fn chart(view: &View, boundaries: &Boundaries) -> MultiplierQuestion 
 /// The motions reached from the scenario's start over the same window.
 pub(super) fn motions(view: &View, boundaries: &Boundaries) -> MotionQuestion {
     let MultiplierQuestion { omega, beta, .. } = chart(view, boundaries);
-    let t_end = view.scenario.t_end;
     let mut scenario = with(&view.scenario, Parameter::Omega, omega.0);
     scenario.parameters.beta = 0.0;
+    scenario.t_end = Scenario::default().t_end;
     MotionQuestion {
         scenario,
         x: (Coordinate::Parameter(Parameter::Omega), omega),
         y: (Coordinate::Parameter(Parameter::Beta), beta),
         size: MOTIONS,
-        t_end,
     }
 }
 
@@ -55,7 +54,7 @@ pub(super) fn motions(view: &View, boundaries: &Boundaries) -> MotionQuestion {
 /// [`ModelError`] naming what of the scenario is out of range.
 pub(super) fn basin(view: &View) -> Result<BasinQuestion, ModelError> {
     let scenario = Scenario { initial: None, t_end: Scenario::default().t_end, ..view.scenario.clone() };
-    BasinQuestion::first_mode(scenario, BASIN, view.scenario.t_end)
+    BasinQuestion::first_mode(scenario, BASIN)
 }
 
 /// The sweep that the tab shows.

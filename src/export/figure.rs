@@ -22,6 +22,8 @@ pub enum Pen {
     Crosses(f32),
     /// Diamonds.
     Diamonds(f32),
+    /// Diamonds that are not filled.
+    HollowDiamonds(f32),
     /// Squares.
     Squares(f32),
 }
@@ -37,6 +39,7 @@ impl Pen {
             Self::Rings(_) => "rings",
             Self::Crosses(_) => "crosses",
             Self::Diamonds(_) => "diamonds",
+            Self::HollowDiamonds(_) => "hollow diamonds",
             Self::Squares(_) => "squares",
         }
     }
@@ -49,6 +52,7 @@ impl Pen {
             | Self::Rings(radius)
             | Self::Crosses(radius)
             | Self::Diamonds(radius)
+            | Self::HollowDiamonds(radius)
             | Self::Squares(radius) => Some(radius),
         }
     }

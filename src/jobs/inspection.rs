@@ -49,20 +49,14 @@ pub struct Inspection {
 /// [`InspectionError`].
 pub fn inspect(scenario: &Scenario) -> Result<Inspection, InspectionError> {
     let (system, initial) = scenario.validate()?;
-    let mut inquiry = Inquiry::new(&system, &initial, scenario.t_end).map_err(VerdictError::from)?;
-    let verdict = loop {
-        if let Some(verdict) = inquiry.advance(usize::MAX)? {
-            break verdict;
-        }
-    };
-    let orbit = inquiry.reached().and_then(|reached| reached.orbit.as_ref());
+    let Inquiry { verdict, reached, spectrum, forced } = Inquiry::new(&system, &initial, scenario.t_end)?;
     let highest = verdict.peaks.iter().map(|peak| peak.omega).fold(system.parameters.omega, f64::max);
-    let spectrum = inquiry.spectrum().map_or_else(Vec::new, |found| {
+    let spectrum = spectrum.map_or_else(Vec::new, |found| {
         drawn(&found.spectrum.amplitudes, found.spectrum.spacing, BEYOND_PEAKS * highest)
     });
     Ok(Inspection {
-        forced: inquiry.forced().and_then(|forced| forced.orbit.as_ref()).map(Multipliers::from),
-        reached: orbit.map(Multipliers::from),
+        forced: forced.and_then(|forced| forced.orbit).as_ref().map(Multipliers::from),
+        reached: reached.orbit.as_ref().map(Multipliers::from),
         spectrum,
         verdict,
     })

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::signature::Signature;
-use crate::dynamics::{ESCAPE_DISPLACEMENT, Horizon, IntegrationError, reach};
+use crate::dynamics::{ESCAPE_DISPLACEMENT, Effort, IntegrationError, Settler, reach};
 use crate::jobs::response::check_range;
 use crate::model::{Dimension, ModelError, Parameter, ReducedSystem, state_dimension};
 use crate::scenario::Scenario;
@@ -137,8 +137,6 @@ pub struct MotionPlane {
     pub x: Coordinate,
     /// What the second one is.
     pub y: Coordinate,
-    /// How long a start is followed before its class is asked for (dimensionless).
-    pub t_end: f64,
 }
 
 impl MotionPlane {
@@ -149,7 +147,10 @@ impl MotionPlane {
     /// [`MotionsError`] when the scenario or a place is out of range.
     pub fn motions(&self, places: &[[f64; 2]]) -> Result<Vec<Option<Signature>>, MotionsError> {
         let (system, start) = self.scenario.validate()?;
-        places.iter().map(|place| self.motion(&system, &start, *place)).collect()
+        // Where only the start changes, all share the periodic motions that are found.
+        let one_system = matches!((self.x, self.y), (Coordinate::Start(_), Coordinate::Start(_)));
+        let mut settler = one_system.then(|| Settler::new(&system));
+        places.iter().map(|place| self.motion(&system, &start, *place, settler.as_mut())).collect()
     }
 
     fn motion(
@@ -157,6 +158,7 @@ impl MotionPlane {
         system: &ReducedSystem,
         start: &[f64],
         place: [f64; 2],
+        settler: Option<&mut Settler>,
     ) -> Result<Option<Signature>, MotionsError> {
         let mut set = self.scenario.parameters;
         let mut initial = start.to_vec();
@@ -184,9 +186,11 @@ impl MotionPlane {
             Err(_) if in_si => return Ok(None),
             system => system?,
         };
-        let found = reach(&system, &initial, Horizon::chart(self.t_end))
-            .and_then(|reached| Signature::of(&system, &reached));
-        match found {
+        let found = match settler {
+            Some(settler) => settler.reach(&initial, Effort::cell()),
+            None => reach(&system, &initial, Effort::cell()),
+        };
+        match found.map(Signature::of) {
             Err(IntegrationError::StepTooSmall { .. } | IntegrationError::TooManySteps { .. }) => Ok(None),
             found => Ok(Some(found?)),
         }
@@ -235,7 +239,6 @@ mod tests {
             scenario: Scenario { parameters, ..Default::default() },
             x: Coordinate::Parameter(Parameter::D),
             y: Coordinate::Start(0),
-            t_end: 200.0,
         };
         let found = plane.motions(&[[0.05, 0.0], [1.5, 0.0]]).expect("a valid plane");
         assert_eq!(found[0], None);

@@ -9,7 +9,7 @@ use super::motions::MotionPlane;
 use super::response::{ResponseCurve, response};
 use crate::dynamics::curves::{Curve, Line, Start, bifurcations_along_line, trace_curve};
 use crate::dynamics::signature::Signature;
-use crate::dynamics::sweep::{Dwell, SweepPoint, sweep};
+use crate::dynamics::sweep::{Course, Dwell, SweepPoint, sweep};
 use crate::dynamics::tongue::{Tongue, Window};
 use crate::dynamics::{Plane, largest_multipliers, trace_tongue};
 use crate::model::{Parameter, Shaking};
@@ -166,10 +166,15 @@ impl Work {
             }
             Self::Sweep { scenario, parameter, shaking, values, state, dwell } => {
                 let (_, start) = scenario.validate().map_err(sentence)?;
-                let (set, model) = (&scenario.parameters, scenario.model);
-                let (moved, state) = ((*parameter, *shaking), state.as_deref());
-                let (points, state) =
-                    sweep(set, model, &start, moved, values, state, *dwell).map_err(sentence)?;
+                let course = Course {
+                    set: &scenario.parameters,
+                    model: scenario.model,
+                    parameter: *parameter,
+                    shaking: *shaking,
+                    start: &start,
+                    dwell: *dwell,
+                };
+                let (points, state) = sweep(course, values, state.as_deref()).map_err(sentence)?;
                 Ok(Finding::Sweep { points, state })
             }
             Self::Motions { plane, places } => plane.motions(places).map(Finding::Motions).map_err(sentence),

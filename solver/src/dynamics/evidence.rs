@@ -2,9 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::attractors::rotation::Rotation;
 use super::lyapunov::{Exponent, Sign};
-use super::motion::{Motion, Reached};
+use super::motion::{Cell, Motion, Reached};
 use super::orbit::Orbit;
+use super::signature::Signature;
 use super::voltage_spectrum::VoltageSpectrum;
 
 /// Distance from a periodic motion below which its stroboscopic points must repeat.
@@ -28,6 +30,12 @@ pub enum Source {
     Recurrence,
     /// The set that the stroboscopic points fill.
     Points,
+    /// Starts that differ by rounding.
+    Beside,
+    /// How often the motion turns about its torus in an excitation period.
+    Rotation,
+    /// The 0-1 test for chaos.
+    ZeroOne,
     /// The largest Lyapunov exponent.
     Exponent,
     /// The spectrum of the voltage.
@@ -111,6 +119,36 @@ impl Evidence {
             _ => ("are scattered", None),
         };
         Self::new(Source::Points, agrees, format!("stroboscopic points {shape}: dimension {dimension:.2}"))
+    }
+
+    /// Where starts that differ by rounding lead, and how many of them.
+    pub(super) fn beside(ends: &[(Signature, usize)]) -> Self {
+        let end = |(signature, count): &(Signature, usize)| {
+            let Cell { motion, v_rms, .. } = signature.cell;
+            let volts =
+                if signature.cell.lasts() { format!(", {} V rms", short(v_rms)) } else { String::new() };
+            format!("{count} × {motion}{volts}")
+        };
+        let all: Vec<String> = ends.iter().map(end).collect();
+        Self::new(Source::Beside, None, format!("starts that differ by rounding: {}", all.join("; ")))
+    }
+
+    /// The rotation number of a torus.
+    pub(super) fn rotation(rotation: Rotation) -> Self {
+        let Rotation { number, error } = rotation;
+        let says =
+            format!("rotation number {number:.9}, the halves of the record differ by {}", short(error));
+        Self::new(Source::Rotation, Some(true), says)
+    }
+
+    /// The 0-1 test.
+    pub(super) fn zero_one(motion: Motion, found: f64) -> Self {
+        let agrees = match motion {
+            Motion::Quasiperiodic => Some(found < 0.5),
+            Motion::Chaotic => Some(found > 0.5),
+            _ => None,
+        };
+        Self::new(Source::ZeroOne, agrees, format!("0-1 test {found:.2}: 0 is regular, 1 chaotic"))
     }
 
     /// The exponent, which must be that of the multipliers on a periodic motion.
@@ -205,7 +243,12 @@ mod tests {
             distance,
             exponent: None,
             recurrence: Some(recurrence),
-            dimension: None,
+            rotation: None,
+            zero_one: None,
+            longer: None,
+            states: Vec::new(),
+            tips: Vec::new(),
+            notes: Vec::new(),
         }
     }
 

@@ -19,6 +19,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::attractors::rotation::weighted_average;
 use super::tangent::Tangents;
 use super::{Collocation, IntegrationError, Orbit, Outcome, Settings};
 use crate::model::ReducedSystem;
@@ -154,19 +155,6 @@ fn interval(growth: &[f64], period: f64) -> (f64, f64) {
     let (early, late) = growth.split_at(growth.len() / 2);
     let drift = (weighted_average(late) - weighted_average(early)).abs();
     (weighted_average(growth) / period, error.max(drift) / period)
-}
-
-/// The weighted Birkhoff average of `values`.
-pub(super) fn weighted_average(values: &[f64]) -> f64 {
-    let step = 1.0 / (values.len() + 1) as f64;
-    let (mut sum, mut total) = (0.0, 0.0);
-    for (k, value) in values.iter().enumerate() {
-        let x = (k + 1) as f64 * step;
-        let weight = (-1.0 / (x * (1.0 - x))).exp();
-        sum += weight * value;
-        total += weight;
-    }
-    sum / total
 }
 
 /// How far a computation of exponents is.

@@ -1,5 +1,7 @@
-//! Means of a motion over whole excitation periods, with steps of any length, and the tip's extremes.
+//! Means of a motion over whole excitation periods, with steps of any length, and its extremes. Means are weighted
+//! Birkhoff averages, so that on a torus they converge faster than any power of the record.
 
+use super::attractors::rotation::weighted_average;
 use super::collocation::Step;
 use super::orbit::{Measures, Observer};
 use super::tables::NODES;
@@ -9,10 +11,11 @@ use crate::model::quadrature::gauss_legendre;
 pub(super) struct Meter {
     weights: Vec<f64>,
     observer: Observer,
+    /// Integral of v^2 over the present period, and its part that is done.
     square: f64,
     duration: f64,
-    /// Square and duration at the last stroboscopic instant.
-    whole: (f64, f64),
+    /// Mean square of the voltage in each period done (V^2).
+    squares: Vec<f64>,
     begun: bool,
 }
 
@@ -23,7 +26,7 @@ impl Default for Meter {
             observer: Observer::default(),
             square: 0.0,
             duration: 0.0,
-            whole: (0.0, 0.0),
+            squares: Vec::new(),
             begun: false,
         }
     }
@@ -32,7 +35,10 @@ impl Default for Meter {
 impl Meter {
     pub(super) fn record(&mut self, step: &Step<'_>) {
         if step.index == 0 {
-            self.whole = (self.square, self.duration);
+            if self.begun {
+                self.squares.push(self.square / self.duration);
+            }
+            (self.square, self.duration) = (0.0, 0.0);
             self.begun = true;
         }
         if !self.begun {
@@ -46,12 +52,16 @@ impl Meter {
     }
 
     pub(super) fn measures(&self, kappa: f64) -> Option<Measures> {
-        let (square, duration) = self.whole;
-        let mean = square / duration;
-        (duration > 0.0).then(|| Measures {
+        let mean = weighted_average(&self.squares);
+        (!self.squares.is_empty()).then(|| Measures {
             v_rms: mean.sqrt(),
             power: kappa * mean,
             ..self.observer.measures(kappa)
         })
+    }
+
+    /// Mean square of the voltage in each whole period so far (V^2).
+    pub(super) fn squares(&self) -> &[f64] {
+        &self.squares
     }
 }

@@ -8,7 +8,7 @@
 //! * [`period_map`] is the stroboscopic map with its exact derivative, [`newton`] finds its fixed points, [`orbit`]
 //!   and [`floquet`] say what they are.
 //! * [`sweep`] carries a motion from one value of a parameter to the next.
-//! * [`motion`] says what motion a start leads to; [`lyapunov`] has its exponents, [`spectrum`] and
+//! * [`attractors`] says what motion a start leads to, [`motion`] has the classes; [`lyapunov`] has its exponents, [`spectrum`] and
 //!   [`voltage_spectrum`] its lines, which [`spectral_label`] names, and [`verdict`] weighs all of it.
 //! * [`signature`] tells whether two starts lead to the same motion.
 //! * [`balance`] is the energy balance of a motion.
@@ -17,6 +17,7 @@
 //!   motions in any parameter, [`curves`] their bifurcations in any two.
 
 mod arclength;
+pub mod attractors;
 pub mod balance;
 pub mod boundary;
 mod bracket;
@@ -44,7 +45,6 @@ pub mod poincare;
 pub mod propagator;
 pub mod rk4;
 mod rule;
-mod search;
 pub mod signature;
 pub mod spectral_label;
 pub mod spectrum;
@@ -59,6 +59,7 @@ mod variation;
 pub mod verdict;
 pub mod voltage_spectrum;
 
+pub use attractors::settle::{Effort, Settler, reach};
 pub use balance::Balance;
 pub use boundary::{CriticalExcitation, critical_excitation, largest_multipliers};
 pub use branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course};
@@ -69,7 +70,7 @@ pub use floquet::Instability;
 pub use forced::ForcedMotion;
 pub use inquiry::Inquiry;
 pub use lyapunov::{Exponent, Lyapunov};
-pub use motion::{Horizon, Motion, Reached, reach};
+pub use motion::{Motion, Reached};
 pub use newton::OrbitSolver;
 pub use ongoing::{Ongoing, Reach};
 pub use orbit::Orbit;
@@ -78,7 +79,6 @@ pub use outcome::{IntegrationError, Outcome};
 pub use period_map::PeriodMap;
 pub use plane::{Axis, Plane};
 pub use rule::NODES;
-pub use search::Search;
 pub use tongue::{Tongue, trace_tongue};
 pub use trajectory::Trajectory;
 pub use verdict::Verdict;

@@ -1,14 +1,15 @@
-//! What motion a start leads to: the classes, and what is known of the motion reached. [`super::Search`] computes it.
+//! What motion a start leads to: the classes, and what is known of the motion reached.
+//! [`super::attractors::settle`] computes it.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::attractors::rotation::Rotation;
 use super::lyapunov::Exponent;
 use super::orbit::{Measures, Orbit};
 use super::poincare::Recurrence;
-use super::{IntegrationError, Search};
-use crate::model::{Demand, ReducedSystem};
+use crate::model::Demand;
 
 /// The class of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
@@ -58,6 +59,10 @@ pub enum Undecided {
     Unresolved,
     /// Pieces of evidence contradict one another.
     EvidenceDisagrees,
+    /// It moves chaotically, but has not lasted long enough to be called chaotic for good.
+    MayBeTransient,
+    /// Starts that differ by less than rounding lead to different motions.
+    DependsOnRounding,
 }
 
 impl Motion {
@@ -94,33 +99,9 @@ impl fmt::Display for Undecided {
             }
             Self::Unresolved => "the motion is too fast to differentiate",
             Self::EvidenceDisagrees => "the evidence disagrees",
+            Self::MayBeTransient => "it moves chaotically, but may still settle",
+            Self::DependsOnRounding => "the outcome depends on rounding",
         })
-    }
-}
-
-/// How far a start is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Horizon {
-    /// Duration of the run (dimensionless), at least 64 excitation periods. Motions whose class is not known then are
-    /// followed further for their Lyapunov exponent.
-    pub t_end: f64,
-    /// Whether the run may end as soon as it is in the reach of a stable periodic motion.
-    pub ends_early: bool,
-    /// Record for the exponent, in excitation periods; at least half of `t_end` is taken.
-    pub exponent_periods: usize,
-    /// How often that record is doubled while it does not decide.
-    pub doublings: u32,
-}
-
-impl Horizon {
-    /// For charts of many cells: the run ends early, the exponent's record is doubled twice at most.
-    pub const fn chart(t_end: f64) -> Self {
-        Self { t_end, ends_early: true, exponent_periods: 768, doublings: 2 }
-    }
-
-    /// For one motion: the whole run, and records of up to 16 times the first.
-    pub const fn full(t_end: f64) -> Self {
-        Self { t_end, ends_early: false, exponent_periods: 1024, doublings: 4 }
     }
 }
 
@@ -129,8 +110,8 @@ impl Horizon {
 pub struct Reached {
     /// The class.
     pub motion: Motion,
-    /// Means and extremes: of the periodic motion itself, else over the whole periods of the exponent's record. `None`
-    /// when the motion ended.
+    /// Means and extremes: of the periodic motion itself, else over the whole periods of the record. `None` when the
+    /// motion ended.
     pub measures: Option<Measures>,
     /// Last stroboscopic state, length 2N + 1.
     pub state: Vec<f64>,
@@ -146,8 +127,19 @@ pub struct Reached {
     /// Whether the stroboscopic points at the end of the run recur; `None` when the motion ended or is rest. While a
     /// motion settles they may seem to repeat after a multiple of its period.
     pub recurrence: Option<Recurrence>,
-    /// Dimension of the set of the last stroboscopic points, when it was needed: 1 on closed curves.
-    pub dimension: Option<f64>,
+    /// Turns about a torus in an excitation period, by the strongest frequency of the tip's stroboscopic displacement.
+    pub rotation: Option<Rotation>,
+    /// The 0-1 test of that displacement, when it was needed: near 0 on a regular motion, near 1 on a chaotic one.
+    pub zero_one: Option<f64>,
+    /// How much longer (dimensionless time) it would take to decide, where that is known.
+    pub longer: Option<f64>,
+    /// Stroboscopic states (length 2N + 1): of a periodic motion all of its shortest period, from the one nearest to
+    /// [`Self::state`]; else that state alone.
+    pub states: Vec<Vec<f64>>,
+    /// Tip displacement once a period in the record, when there is one, in beam lengths.
+    pub(super) tips: Vec<f64>,
+    /// Tip displacement on the way, every 16 excitation periods from the start, in beam lengths.
+    pub(super) notes: Vec<f64>,
 }
 
 /// The part of [`Reached`] that a chart stores.
@@ -168,6 +160,18 @@ pub struct Cell {
 }
 
 impl Cell {
+    /// Of a motion with its numbers, if it has any.
+    pub fn new(motion: Motion, measures: Option<Measures>) -> Self {
+        match measures {
+            Some(measures) => {
+                let tip = (measures.tip_min, measures.tip_max);
+                let Measures { v_rms, power, v_peak, slope, .. } = measures;
+                Self { motion, v_rms, power, tip, v_peak, slope }
+            }
+            None => Self { motion, v_rms: 0.0, power: 0.0, tip: (0.0, 0.0), v_peak: 0.0, slope: 0.0 },
+        }
+    }
+
     /// What the motion asks of the device; `None` when it ended.
     pub fn demand(&self) -> Option<Demand> {
         let Self { v_peak, tip, slope, .. } = *self;
@@ -181,29 +185,12 @@ impl Cell {
 }
 
 impl Reached {
+    pub(super) fn with_orbit(self, orbit: Orbit) -> Self {
+        Self { orbit: Some(orbit), ..self }
+    }
+
     /// What a chart stores.
     pub fn cell(&self) -> Cell {
-        let motion = self.motion;
-        match self.measures {
-            Some(measures) => {
-                let tip = (measures.tip_min, measures.tip_max);
-                let Measures { v_rms, power, v_peak, slope, .. } = measures;
-                Cell { motion, v_rms, power, tip, v_peak, slope }
-            }
-            None => Cell { motion, v_rms: 0.0, power: 0.0, tip: (0.0, 0.0), v_peak: 0.0, slope: 0.0 },
-        }
-    }
-}
-
-/// What motion the start of `system` in `initial` (length 2N + 1) at t = 0 leads to.
-///
-/// # Errors
-/// As [`super::Collocation::new`] and [`super::Collocation::advance`].
-pub fn reach(system: &ReducedSystem, initial: &[f64], horizon: Horizon) -> Result<Reached, IntegrationError> {
-    let mut search = Search::new(system, initial, horizon)?;
-    loop {
-        if let Some(reached) = search.advance(usize::MAX)? {
-            return Ok(reached);
-        }
+        Cell::new(self.motion, self.measures)
     }
 }

@@ -53,6 +53,8 @@ pub struct PeriodMap {
     period: f64,
     gap: f64,
     level: u32,
+    /// How often the coarsest grid may be halved.
+    deepest: u32,
     steps: usize,
     tables: StepTables,
     /// Sine and cosine of the excitation's phase at the start of each step.
@@ -90,12 +92,18 @@ impl PeriodMap {
             scales: scales(system),
             gap: system.equilibrium.gap,
             level,
+            deepest: DEEPEST_LEVEL,
             propagator,
             force: system.rest_force(),
             period,
             steps,
             tables,
         }
+    }
+
+    /// The same map, on a grid that is halved at most `deepest` times: what it cannot follow then it gives up sooner.
+    pub(super) fn limited(self, deepest: u32) -> Self {
+        Self { deepest: deepest.min(DEEPEST_LEVEL), ..self }
     }
 
     /// Length 2N + 1 of the state.
@@ -134,7 +142,7 @@ impl PeriodMap {
     /// # Errors
     /// [`OrbitError::Unresolved`] when the grid is as fine as it may become.
     pub fn refine(&mut self) -> Result<(), OrbitError> {
-        if self.level == DEEPEST_LEVEL {
+        if self.level >= self.deepest {
             return Err(OrbitError::Unresolved { steps: self.steps });
         }
         self.level += 1;

@@ -7,18 +7,18 @@
 use serde::{Deserialize, Serialize};
 
 use super::motion::{Cell, Motion, Reached};
+use super::orbit::Orbit;
 use super::period_map::scales;
-use super::{Collocation, IntegrationError, Orbit, Settings};
 use crate::model::ReducedSystem;
 
 /// Distance, relative to the amplitude, below which stroboscopic states are the same.
 const SAME_STATE: f64 = 1e-3;
 /// Amplitude, relative to the gap, below which a motion is rest.
 const SMALL: f64 = 1e-3;
-/// Relative difference of voltages below which two motions of a class that is not periodic are the same.
-const SAME_VOLTAGE: f64 = 0.05;
-/// Steps between looks at whether enough periods have passed.
-const CHUNK: usize = 32;
+/// Relative difference of voltages below which two tori are the same, and two chaotic motions, whose means are those of
+/// a finite record.
+const SAME_TORUS: f64 = 0.01;
+const SAME_CHAOS: f64 = 0.25;
 
 /// A motion with what it is recognised by.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
@@ -31,43 +31,17 @@ pub struct Signature {
 }
 
 impl Signature {
-    /// Of what a start of `system` has `reached`.
-    ///
-    /// # Errors
-    /// As [`super::Collocation::advance`].
-    pub fn of(system: &ReducedSystem, reached: &Reached) -> Result<Self, IntegrationError> {
-        let states = match reached.motion {
-            Motion::Periodic { periods } => {
-                let state = reached.orbit.as_ref().map_or(&reached.state, |orbit: &Orbit| &orbit.state);
-                stroboscopic_states(system, state, periods)?
-            }
-            Motion::Escape { .. } | Motion::Contact { .. } => Vec::new(),
-            _ => vec![reached.state.clone()],
-        };
-        Ok(Self { cell: reached.cell(), states })
+    /// Of what a start has `reached`.
+    pub fn of(reached: Reached) -> Self {
+        let cell = reached.cell();
+        Self { cell, states: if cell.lasts() { reached.states } else { Vec::new() } }
     }
-}
 
-/// The first `count` stroboscopic states of the motion of `system` from `state` (length 2N + 1) at t = 0, that one
-/// among them; fewer when the motion ends.
-fn stroboscopic_states(
-    system: &ReducedSystem,
-    state: &[f64],
-    count: usize,
-) -> Result<Vec<Vec<f64>>, IntegrationError> {
-    let mut states = vec![state.to_vec()];
-    let mut integrator = Collocation::new(system, state, Settings::default())?;
-    while states.len() < count {
-        let outcome = integrator.advance(f64::INFINITY, CHUNK, &mut |step| {
-            if step.index == 0 && step.time > 0.0 && states.len() < count {
-                states.push(step.start[..state.len()].to_vec());
-            }
-        })?;
-        if outcome.is_some() {
-            break;
-        }
+    /// Of a periodic motion with its `states` at the stroboscopic instants of its period.
+    pub(super) fn of_orbit(orbit: &Orbit, states: Vec<Vec<f64>>) -> Self {
+        let motion = Motion::Periodic { periods: orbit.periods };
+        Self { cell: Cell::new(motion, Some(orbit.measures)), states }
     }
-    Ok(states)
 }
 
 /// Compares motions of one device under one excitation.
@@ -92,8 +66,9 @@ impl Recogniser {
         match a.cell.motion {
             Motion::Periodic { .. } => self.same_orbit(&a.states, &b.states),
             Motion::Quasiperiodic | Motion::Chaotic => {
+                let room = if a.cell.motion == Motion::Chaotic { SAME_CHAOS } else { SAME_TORUS };
                 let (a, b) = (a.cell.v_rms, b.cell.v_rms);
-                (a - b).abs() <= SAME_VOLTAGE * a.max(b)
+                (a - b).abs() <= room * a.max(b)
             }
             Motion::Escape { .. } | Motion::Contact { .. } | Motion::Undecided { .. } => true,
         }
@@ -122,12 +97,12 @@ impl Recogniser {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::{Horizon, reach};
+    use crate::dynamics::{Effort, reach};
     use crate::model::{ModelChoice, ParameterSet};
 
     fn signature(system: &ReducedSystem, initial: &[f64]) -> Signature {
-        let reached = reach(system, initial, Horizon::chart(600.0)).expect("a motion");
-        Signature::of(system, &reached).expect("its states")
+        let reached = reach(system, initial, Effort::cell()).expect("a motion");
+        Signature::of(reached)
     }
 
     #[test]
@@ -163,7 +138,7 @@ mod tests {
             },
             states: vec![vec![0.0; 5]],
         };
-        assert!(recogniser.same(&torus(20.0), &torus(20.5)));
+        assert!(recogniser.same(&torus(20.0), &torus(20.1)));
         assert!(!recogniser.same(&torus(20.0), &torus(25.0)));
         let escape = |time| Signature {
             cell: Cell {

@@ -16,6 +16,8 @@ use super::spectrum::Line;
 pub const SHIFT: f64 = 0.02;
 /// Largest multiple of the excitation in a combination with measured basic frequencies, and of those.
 const LARGEST_ORDER: i32 = 8;
+/// Amplitude, relative to the strongest line's, of a line that tells what motion a torus lies about.
+const STRONG: f64 = 0.1;
 /// Lines that may be the basic frequency.
 const CANDIDATES: usize = 8;
 /// The combinations (excitation, first, second own frequency) that are looked for, by priority: itself, the partner
@@ -61,10 +63,12 @@ pub enum Label {
         /// (measured - combination) / combination.
         shift: f64,
     },
-    /// An integer combination of the excitation and the basic frequency nu measured on a torus.
+    /// An integer combination of the excitation, or a fraction of it, and the basic frequency nu measured on a torus.
     Torus {
-        /// Multiple of omega.
+        /// Multiple of omega / denominator.
         excitation: i32,
+        /// 1, or the periods of the motion that the torus lies about.
+        denominator: u32,
         /// Multiple of nu.
         basic: i32,
     },
@@ -80,7 +84,13 @@ impl fmt::Display for Label {
             Self::Own { excitation, first, second, .. } => {
                 terms(f, &[(excitation, "ω"), (first, "ω₁′"), (second, "ω₂′")])
             }
-            Self::Torus { excitation, basic } => terms(f, &[(excitation, "ω"), (basic, "ν")]),
+            Self::Torus { excitation, denominator, basic } => {
+                let whole = denominator as i32;
+                if excitation % whole == 0 {
+                    return terms(f, &[(excitation / whole, "ω"), (basic, "ν")]);
+                }
+                terms(f, &[(excitation, &format!("ω/{denominator}")), (basic, "ν")])
+            }
         }
     }
 }
@@ -150,35 +160,53 @@ impl Frequencies {
         found.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).map(|found| found.1)
     }
 
-    /// a omega + b nu with the smallest |a| + |b|, b not 0, if `omega` is one.
-    pub fn torus_label(&self, omega: f64, basic: f64) -> Option<Label> {
+    /// The periods n of the motion that a torus lies about: the smallest denominator of the strongest of `lines` that is a
+    /// multiple of omega / n and none of omega, or 1 where no strong one is.
+    pub fn torus_denominator(&self, lines: &[Line]) -> u32 {
+        let strongest = lines.first().map_or(0.0, |line| line.amplitude);
+        let strong = lines.iter().take_while(|line| line.amplitude >= STRONG * strongest);
+        let fractions = strong.filter_map(|line| self.excitation_label(line.omega));
+        let denominators = fractions.filter_map(|label| match label {
+            Label::Excitation { denominator, .. } => Some(denominator),
+            _ => None,
+        });
+        denominators.max().unwrap_or(1)
+    }
+
+    /// a omega / `denominator` + b nu with the smallest |a| + |b|, b not 0, if `omega` is one.
+    pub fn torus_label(&self, omega: f64, basic: f64, denominator: u32) -> Option<Label> {
+        let unit = self.excitation / f64::from(denominator);
         let mut best: Option<(i32, Label)> = None;
         for multiple in (-LARGEST_ORDER..=LARGEST_ORDER).filter(|multiple| *multiple != 0) {
-            let excitation = ((omega - f64::from(multiple) * basic) / self.excitation).round();
-            if excitation.abs() > f64::from(LARGEST_ORDER) {
+            let excitation = ((omega - f64::from(multiple) * basic) / unit).round();
+            if excitation.abs() > f64::from(LARGEST_ORDER) * f64::from(denominator) {
                 continue;
             }
-            let sum = excitation * self.excitation + f64::from(multiple) * basic;
+            let sum = excitation * unit + f64::from(multiple) * basic;
             let order = multiple.abs() + excitation.abs() as i32;
             // The error of nu is multiplied with it.
             let tolerance = self.tolerance * f64::from(multiple.abs()).sqrt();
             if (omega - sum).abs() <= tolerance && best.is_none_or(|(least, _)| order < least) {
-                best = Some((order, Label::Torus { excitation: excitation as i32, basic: multiple }));
+                best = Some((
+                    order,
+                    Label::Torus { excitation: excitation as i32, denominator, basic: multiple },
+                ));
             }
         }
         best.map(|(_, label)| label)
     }
 
-    /// The basic frequency nu of a torus: of the strongest `lines` that are no multiples of omega, the one whose
-    /// combinations with omega explain most of them, and in the simplest way.
+    /// The basic frequency nu of a torus about a motion of `denominator` periods: of the strongest `lines` that are no
+    /// multiples of omega / denominator, the one whose combinations with it explain most of them, and in the simplest way.
     ///
-    /// Any of the frequencies nu + k omega would do; which one is found depends on the strengths.
-    pub fn basic(&self, lines: &[Line]) -> Option<f64> {
-        let free: Vec<&Line> = lines.iter().filter(|line| self.multiple(line.omega).is_none()).collect();
+    /// Any of the frequencies nu + k omega / denominator would do; which one is found depends on the strengths.
+    pub fn basic(&self, lines: &[Line], denominator: u32) -> Option<f64> {
+        let free: Vec<&Line> =
+            lines.iter().filter(|line| self.multiple(line.omega, denominator).is_none()).collect();
         let cost = |basic: f64| -> f64 {
             let weights = free.iter().map(|line| {
-                let order = match self.torus_label(line.omega, basic) {
-                    Some(Label::Torus { excitation, basic }) => excitation.abs() + basic.abs(),
+                let order = match self.torus_label(line.omega, basic, denominator) {
+                    Some(Label::Torus { excitation, basic, .. }) => excitation.abs() + basic.abs(),
                     _ => 4 * LARGEST_ORDER,
                 };
                 line.amplitude * line.amplitude * f64::from(order)
@@ -189,10 +217,11 @@ impl Frequencies {
         candidates.min_by(|a, b| a.1.total_cmp(&b.1)).map(|found| found.0)
     }
 
-    /// The multiple of omega that a line is, if it is one.
-    pub fn multiple(&self, omega: f64) -> Option<u32> {
-        let numerator = (omega / self.excitation).round();
-        let close = numerator >= 1.0 && (omega - numerator * self.excitation).abs() <= self.tolerance;
+    /// The multiple of omega / `denominator` that a line is, if it is one.
+    pub fn multiple(&self, omega: f64, denominator: u32) -> Option<u32> {
+        let unit = self.excitation / f64::from(denominator);
+        let numerator = (omega / unit).round();
+        let close = numerator >= 1.0 && (omega - numerator * unit).abs() <= self.tolerance;
         close.then_some(numerator as u32)
     }
 }

@@ -45,7 +45,7 @@ pub enum SpectrumError {
 
 /// The transform of any length by those of powers of two. A planner would choose among all of the crate's algorithms,
 /// which weigh more in the page than the whole integrator; this takes three times as long, a few milliseconds.
-fn fourier_transform(length: usize) -> Arc<dyn Fft<f64>> {
+pub(super) fn fourier_transform(length: usize) -> Arc<dyn Fft<f64>> {
     let of_power_of_two = |length| Arc::new(Radix4::new(length, FftDirection::Forward));
     if length.is_power_of_two() {
         return of_power_of_two(length);

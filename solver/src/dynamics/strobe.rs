@@ -1,39 +1,31 @@
-//! The last stroboscopic states of a motion, and what their geometry says: how they approach a periodic motion, after
-//! how many periods they nearly return, and the dimension of the set they fill.
+//! The last stroboscopic states of a motion, and what their geometry says: after how many periods they nearly return,
+//! and the dimension of the set they fill.
 //!
 //! Distances are largest components of scaled states (see [`super::PeriodMap::scales`]), so displacements.
 
-use super::orbit::Orbit;
 use super::poincare::{PhasePoint, Recurrence, recurrence};
 use crate::model::ReducedSystem;
 
 /// States kept.
-pub(super) const KEPT: usize = 512;
-/// Distance from a periodic motion, relative to the amplitude, below which the motion has arrived there.
-const ARRIVED: f64 = 1e-4;
-/// Distance below which a motion that approaches as fast as the multipliers say is in their reach, when nothing else is
-/// known of it.
-pub(super) const NEAR: f64 = 0.05;
-/// The same for small motions, relative to the gap.
-const NEAR_GAP: f64 = 0.01;
-/// Part of the decay that the multipliers promise which must be seen.
-const SEEN: f64 = 0.5;
-/// Amplitude, relative to the gap, below which a motion is rest.
-const SMALL: f64 = 1e-3;
-/// Returns to a periodic motion that are looked at, and fewest.
-const RETURNS: usize = 256;
-const LEAST_RETURNS: usize = 8;
+pub(super) const KEPT: usize = 1024;
 /// States that recurrence is asked of, a few more than it compares.
 const RECENT: usize = 64;
+/// Distance of states, relative to the amplitude, that are a near return.
+const RETURNED: f64 = 0.05;
+/// The same for states that repeat, and how much nearer than so many periods earlier those must be that will.
+const ARRIVED: f64 = 1e-4;
+const NEARER: f64 = 0.95;
+const EARLIER: usize = 512;
 /// Longest near return looked for, in excitation periods.
 const LONGEST_RETURN: usize = 64;
+/// States whose geometry is looked at.
+const GEOMETRY: usize = 512;
 /// Neighbours whose distances give the dimension.
 const NEIGHBOURS: (usize, usize) = (4, 16);
 
 /// The last stroboscopic states.
 pub(super) struct Strobe {
     scales: Vec<f64>,
-    gap: f64,
     /// Chronological; the oldest half is dropped when twice as many are held as needed.
     states: Vec<f64>,
 }
@@ -41,7 +33,7 @@ pub(super) struct Strobe {
 impl Strobe {
     pub(super) fn new(system: &ReducedSystem) -> Self {
         let scales = super::period_map::scales(system);
-        Self { states: Vec::with_capacity(2 * KEPT * scales.len()), gap: system.equilibrium.gap, scales }
+        Self { states: Vec::with_capacity(2 * KEPT * scales.len()), scales }
     }
 
     pub(super) fn push(&mut self, state: &[f64]) {
@@ -100,37 +92,26 @@ impl Strobe {
         recurrence(&points, size, size * omega)
     }
 
-    /// Distance of the last states from `orbit`, relative to their amplitude, if they have arrived there, or are near
-    /// (within `near`) and approach it as fast as its multipliers say.
-    ///
-    /// The last state must be the one that the orbit's state was looked for from.
-    pub(super) fn approach(&self, orbit: &Orbit, near: f64) -> Option<f64> {
-        let returns = (self.len().saturating_sub(1) / orbit.periods + 1).min(RETURNS);
-        let quarter = (returns / 4).max(1);
-        let distance = |j: usize| self.distance(self.before_last(j * orbit.periods), &orbit.state);
-        let late = (0..quarter).map(distance).fold(0.0, f64::max);
-        let early = (returns - quarter..returns).map(distance).fold(0.0, f64::max);
-        let amplitude = self.amplitude(KEPT);
-        let unit = amplitude.max(SMALL * self.gap);
-        let promised = -((returns - quarter) as f64) * orbit.largest_multiplier().norm().ln();
-        let approaches = late <= (near * amplitude).max(NEAR_GAP * self.gap)
-            && returns >= LEAST_RETURNS
-            && (early / late).ln() >= SEEN * promised;
-        (approaches || late <= ARRIVED * unit).then_some(late / unit)
+    /// Largest scaled component of the last [`RECENT`] states.
+    pub(super) fn recent_amplitude(&self) -> f64 {
+        self.amplitude(RECENT)
     }
 
-    /// The number of periods, up to 64, after which the last states come closest to themselves.
+    /// The number of periods, up to 64, after which the last states come closest to themselves, if they come close and ever
+    /// closer, or have arrived.
     pub(super) fn closest_return(&self) -> Option<usize> {
         let compared = self.len().checked_sub(LONGEST_RETURN)?.min(LONGEST_RETURN);
-        let defect = |period: usize| {
-            let pairs =
-                (0..compared).map(|j| self.distance(self.before_last(j), self.before_last(j + period)));
+        let defect = |period: usize, back: usize| {
+            let pairs = (back..back + compared)
+                .map(|j| self.distance(self.before_last(j), self.before_last(j + period)));
             pairs.fold(0.0, f64::max)
         };
-        (1..=LONGEST_RETURN)
-            .map(|period| (period, defect(period)))
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|found| found.0)
+        let all = (1..=LONGEST_RETURN).map(|period| (period, defect(period, 0)));
+        let (period, now) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let amplitude = self.amplitude(RECENT);
+        let back = (self.len() - compared - period).min(EARLIER);
+        let nearer = || now < NEARER * defect(period, back);
+        (now <= ARRIVED * amplitude || now <= RETURNED * amplitude && nearer()).then_some(period)
     }
 
     /// Dimension of the set that the last states fill, by the median distances of their 4th and 16th neighbours: 1 on
@@ -138,7 +119,7 @@ impl Strobe {
     ///
     /// An estimate at the scale of a thirtieth of the set; a set thickened by a transient seems larger.
     pub(super) fn dimension(&self) -> Option<f64> {
-        let count = self.len().min(KEPT);
+        let count = self.len().min(GEOMETRY);
         let (near, far) = NEIGHBOURS;
         if count < 16 * far {
             return None;

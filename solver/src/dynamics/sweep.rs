@@ -1,27 +1,23 @@
 //! Sweeps: the motion at one value of a parameter after another, the state carried over from each to the next.
 //!
-//! A value is held for a number of excitation periods that are thrown away and a number that are kept. The state at
-//! the end, taken at a stroboscopic instant, is where the next value starts, in the same phase of the excitation: q,
-//! dq/dt and v are carried over as they are, also when a change of structure changes the modes a little. After an
-//! escape or a contact there is nothing to carry, and the next value starts from the sweep's own start. A value that
-//! starts so has no settled neighbour: it is given [`SETTLING`] times as long before its motion counts.
+//! A value is held until its motion has settled, by the same evidence as everywhere ([`super::attractors::settle`]), and for a
+//! given number of excitation periods at least. The state in which it has settled, taken at a stroboscopic instant, is where
+//! the next value starts, in the same phase of the excitation: q, dq/dt and v are carried over as they are, also when a
+//! change of structure changes the modes a little. After an escape or a contact there is nothing to carry, and the next
+//! value starts from the sweep's own start.
 
 use serde::{Deserialize, Serialize};
 
-use super::poincare::{PhasePoint, recurrence};
-use super::summary::Collector;
-use super::{Collocation, IntegrationError, Outcome, Settings};
+use super::motion::{Cell, Motion};
+use super::{Collocation, Effort, IntegrationError, Settings, reach};
 use crate::model::{ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem, Shaking};
-
-/// How many times longer the transient of a value that starts from the sweep's own start may take.
-pub const SETTLING: usize = 5;
 
 /// How long each value is held, in excitation periods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Dwell {
-    /// Periods thrown away first, for the transient.
+    /// Periods thrown away first, at least: as many more as the motion takes to settle.
     pub discarded: usize,
-    /// Periods kept: stroboscopic points, means and extremes are of these.
+    /// Stroboscopic points kept, one a period.
     pub kept: usize,
 }
 
@@ -58,19 +54,21 @@ impl Dwell {
 pub struct SweepPoint {
     /// The parameter's value.
     pub value: f64,
+    /// The motion reached; undecided where it has not settled.
+    pub motion: Motion,
     /// v at the stroboscopic instants kept (V), in their order.
     pub strobe: Vec<f64>,
-    /// Root mean square of the voltage over the periods kept (V).
+    /// Root mean square of the voltage (V): of the periodic motion itself where there is one.
     pub v_rms: f64,
-    /// Largest |v| there (V).
+    /// Largest |v| (V).
     pub v_peak: f64,
-    /// Mean electrical power kappa v^2 there (dimensionless).
+    /// Mean electrical power kappa v^2 (dimensionless).
     pub power: f64,
-    /// Lowest and highest tip displacement there, in beam lengths.
+    /// Lowest and highest tip displacement, in beam lengths.
     pub tip: (f64, f64),
-    /// Largest |slope| at the tip there (rad).
+    /// Largest |slope| at the tip (rad).
     pub slope: f64,
-    /// Excitation periods after which the stroboscopic points repeat; `None` when they do not, or are too few.
+    /// Excitation periods after which it repeats; `None` when it does not, or has not settled.
     pub period: Option<usize>,
     /// Whether the motion escaped or touched, or there is no such device; the other numbers are then zero.
     pub ended: bool,
@@ -78,20 +76,34 @@ pub struct SweepPoint {
     pub restarted: bool,
 }
 
-/// Visits `values` of `parameter` in their order, everything else being as in `set` and `model`, the base shaken so, from `state` (length
-/// 2N + 1), or from `start` (of that length) where no motion is carried over. Returns the points and the state in which the last one ended, unless that ended early.
+/// What is swept, and how.
+#[derive(Debug, Clone, Copy)]
+pub struct Course<'a> {
+    /// Everything that does not change.
+    pub set: &'a ParameterSet,
+    /// Modes and force law.
+    pub model: ModelChoice,
+    /// What changes.
+    pub parameter: Parameter,
+    /// What of the base's motion is held meanwhile.
+    pub shaking: Shaking,
+    /// Where a value starts that no motion is carried over to (length 2N + 1).
+    pub start: &'a [f64],
+    /// How long each value is held.
+    pub dwell: Dwell,
+}
+
+/// Visits `values` in their order along `course`, the first one from `state` (length 2N + 1) if there is one. Returns the
+/// points, and the state in which the last one settled unless its motion ended.
 ///
 /// # Errors
 /// [`SweepError`] when a value is out of range or its motion cannot be resolved.
 pub fn sweep(
-    set: &ParameterSet,
-    model: ModelChoice,
-    start: &[f64],
-    (parameter, shaking): (Parameter, Shaking),
+    course: Course<'_>,
     values: &[f64],
     state: Option<&[f64]>,
-    dwell: Dwell,
 ) -> Result<(Vec<SweepPoint>, Option<Vec<f64>>), SweepError> {
+    let Course { set, model, parameter, shaking, start, dwell } = course;
     let mut carried = state.map(<[f64]>::to_vec);
     let mut points = Vec::with_capacity(values.len());
     for value in values {
@@ -99,15 +111,12 @@ pub fn sweep(
         let restarted = carried.is_none();
         let from = carried.as_ref().map_or(start, Vec::as_slice);
         let held = match model.system(set) {
-            Ok(system) => {
-                let longer = Dwell { discarded: SETTLING * dwell.discarded, ..dwell };
-                hold(&system, from, if restarted { longer } else { dwell })?
-            }
+            Ok(system) => hold(&system, from, dwell)?,
             // A value out of its own range is a wrong question; a device that cannot be is a gap.
             Err(reason @ (ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
                 return Err(reason.into());
             }
-            Err(_) => Held::nothing(),
+            Err(_) => Held::of(Cell::new(Motion::Escape { time: 0.0 }, None)),
         };
         points.push(SweepPoint { value: *value, restarted, ..held.point });
         carried = held.end;
@@ -133,59 +142,54 @@ struct Held {
 }
 
 impl Held {
-    /// What there is of a device that cannot be: pulled in or buckled by its magnets.
-    fn nothing() -> Self {
+    /// What a motion's numbers say; one that has ended stands for a device that cannot be as well.
+    fn of(cell: Cell) -> Self {
+        let Cell { motion, v_rms, power, tip, v_peak, slope } = cell;
         let point = SweepPoint {
             value: 0.0,
+            motion,
             strobe: Vec::new(),
-            v_rms: 0.0,
-            v_peak: 0.0,
-            power: 0.0,
-            tip: (0.0, 0.0),
-            slope: 0.0,
-            period: None,
-            ended: true,
+            v_rms,
+            v_peak,
+            power,
+            tip,
+            slope,
+            period: match motion {
+                Motion::Periodic { periods } => Some(periods),
+                _ => None,
+            },
+            ended: !cell.lasts(),
             restarted: false,
         };
         Self { point, end: None }
     }
 }
 
-/// Holds `system` from the state `from` for as long as `dwell` says.
+/// Holds `system` from the state `from` until its motion has settled, and for as long as `dwell` says.
 fn hold(system: &ReducedSystem, from: &[f64], dwell: Dwell) -> Result<Held, IntegrationError> {
-    let period = system.parameters.period();
-    let (begin, end) = (dwell.discarded as f64 * period, (dwell.discarded + dwell.kept) as f64 * period);
-    let mut integrator = Collocation::new(system, from, Settings::default())?;
-    let mut collector = Collector::new((begin, end), end, 1);
-    let mut strobe: Vec<PhasePoint> = Vec::with_capacity(dwell.kept);
+    let reached = reach(system, from, Effort { least: dwell.discarded, ..Effort::cell() })?;
+    let mut held = Held::of(reached.cell());
+    if held.point.ended {
+        return Ok(held);
+    }
     let last = system.dimension() - 1;
-    let outcome = loop {
-        let outcome = integrator.advance(end, usize::MAX, &mut |step| {
-            if step.index == 0 && step.time > begin - 0.5 * period {
-                let state = &step.start[..=last];
-                strobe.push(PhasePoint { v: state[last], dv_dt: system.voltage_rate(state) });
+    let voltages = reached.states.iter().map(|state| state[last]);
+    if reached.orbit.is_some() {
+        held.point.strobe = voltages.cycle().take(dwell.kept).collect();
+        held.end = reached.states.into_iter().next();
+        return Ok(held);
+    }
+    let mut integrator = Collocation::new(system, &reached.state, Settings::default())?;
+    let end = dwell.kept as f64 * system.parameters.period();
+    let strobe = &mut held.point.strobe;
+    while integrator
+        .advance(end, usize::MAX, &mut |step| {
+            if step.index == 0 && strobe.len() < dwell.kept {
+                strobe.push(step.start[last]);
             }
-            collector.record(step);
-        })?;
-        if let Some(outcome) = outcome {
-            break outcome;
-        }
-    };
-    let completed = outcome == Outcome::Completed;
-    let summary = collector.summary(integrator.propagator()).filter(|_| completed);
-    let repeats = summary.and_then(|summary| recurrence(&strobe, summary.v_peak, summary.dv_dt_peak));
-    let v_rms = summary.map_or(0.0, |summary| summary.v_rms);
-    let point = SweepPoint {
-        value: 0.0,
-        strobe: if completed { strobe.iter().map(|point| point.v).collect() } else { Vec::new() },
-        v_rms,
-        v_peak: summary.map_or(0.0, |summary| summary.v_peak),
-        power: system.parameters.kappa * v_rms * v_rms,
-        tip: summary.map_or((0.0, 0.0), |summary| (summary.tip_min, summary.tip_max)),
-        slope: summary.map_or(0.0, |summary| summary.slope),
-        period: repeats.and_then(|found| found.period),
-        ended: !completed,
-        restarted: false,
-    };
-    Ok(Held { point, end: completed.then(|| integrator.state().to_vec()) })
+        })?
+        .is_none()
+    {}
+    held.end = Some(integrator.state().to_vec());
+    Ok(held)
 }

@@ -5,6 +5,8 @@ use std::fmt;
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
+use super::IntegrationError;
+use super::attractors::rotation::Rotation;
 use super::boundary::CriticalExcitation;
 use super::evidence::{Evidence, Source, short};
 use super::floquet::Instability;
@@ -13,7 +15,6 @@ use super::lyapunov::Exponent;
 use super::motion::Motion;
 use super::orbit::Orbit;
 use super::voltage_spectrum::{Peak, VoltageSpectrumError};
-use super::{Inquiry, IntegrationError};
 use crate::model::force::Exact;
 use crate::model::limits::LINEAR_BEAM;
 use crate::model::{ForceLaw, ReducedSystem};
@@ -80,6 +81,10 @@ pub enum OtherStart {
     ForcedMotion,
     /// At rest.
     Rest,
+    /// Beside the start asked for, by no more than rounding.
+    Beside,
+    /// On a stable periodic motion that was met on the way.
+    OnTheWay,
 }
 
 /// Another attracting motion at the same parameters.
@@ -100,6 +105,8 @@ impl fmt::Display for Coexisting {
         let start = match self.start {
             OtherStart::ForcedMotion => "on the stable forced motion",
             OtherStart::Rest => "at rest",
+            OtherStart::Beside => "that differs by rounding",
+            OtherStart::OnTheWay => "on a motion met on the way",
         };
         write!(f, "a start {start} leads to another motion: {}, {} V rms", self.motion, short(self.v_rms))
     }
@@ -113,6 +120,16 @@ pub enum Warning {
     TransientLeft {
         /// How far, relative to the amplitude.
         fraction: f64,
+    },
+    /// Neighbouring motions diverge until it settles: transient chaos.
+    TransientChaos {
+        /// When it has settled (dimensionless).
+        time: f64,
+    },
+    /// The effort was spent before the motion could be decided on.
+    WouldTake {
+        /// How much longer it would take (dimensionless).
+        time: f64,
     },
     /// The truncated force law is wrong where the tip comes closest to the magnet.
     ForceLaw {
@@ -146,6 +163,12 @@ impl fmt::Display for Warning {
                     "the transient has not gone: the run ends {} % of the amplitude away",
                     short(100.0 * fraction)
                 )
+            }
+            Self::TransientChaos { time } => {
+                write!(f, "neighbouring motions diverge until it settles, at t = {}", short(time))
+            }
+            Self::WouldTake { time } => {
+                write!(f, "to decide would take about {} more in t", short(time))
             }
             Self::ForceLaw { missing } => {
                 let word = if missing > 0.0 { "weak" } else { "strong" };
@@ -221,29 +244,16 @@ pub struct Verdict {
     pub peaks: Vec<Peak>,
     /// On a torus, the measured second basic frequency (dimensionless); the first is omega.
     pub basic: Option<f64>,
+    /// On a torus, its turns in an excitation period.
+    pub rotation: Option<Rotation>,
     /// What the class rests on.
     pub rests_on: Vec<Evidence>,
     /// The pieces of evidence that contradict it.
     pub disagreeing: Vec<Source>,
-    /// Other attracting motions met at the same parameters. Only two other starts are tried: there may be more.
+    /// Other attracting motions met at the same parameters. Few other starts are tried: there may be more.
     pub coexists: Vec<Coexisting>,
     /// What to know before relying on it.
     pub warnings: Vec<Warning>,
-}
-
-impl Verdict {
-    /// The verdict on the start of `system` in `initial` (length 2N + 1) at t = 0, with a run of length `t_end`.
-    ///
-    /// # Errors
-    /// [`VerdictError`].
-    pub fn of(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Self, VerdictError> {
-        let mut inquiry = Inquiry::new(system, initial, t_end)?;
-        loop {
-            if let Some(verdict) = inquiry.advance(usize::MAX)? {
-                return Ok(verdict);
-            }
-        }
-    }
 }
 
 /// Why there is no verdict.

@@ -98,20 +98,23 @@ impl VoltageSpectrum {
             let all: Vec<f64> = (1..=count).map(|m| f64::from(m) * unit).collect();
             spectrum.share_of(&all)
         };
+        let denominator = match motion {
+            Motion::Quasiperiodic => frequencies.torus_denominator(&lines),
+            _ => 1,
+        };
+        let unit = frequencies.excitation / f64::from(denominator);
         let combinations = |basic: f64| {
+            let order = TORUS_ORDER * denominator as i32;
             let mut all = Vec::new();
-            for a in -TORUS_ORDER..=TORUS_ORDER {
-                all.extend(
-                    (-TORUS_ORDER..=TORUS_ORDER)
-                        .map(|b| f64::from(a) * frequencies.excitation + f64::from(b) * basic),
-                );
+            for a in -order..=order {
+                all.extend((-TORUS_ORDER..=TORUS_ORDER).map(|b| f64::from(a) * unit + f64::from(b) * basic));
             }
             all.retain(|omega| *omega > 0.0 && *omega < top);
             spectrum.share_of(&all)
         };
         let basic = match motion {
             Motion::Periodic { .. } => None,
-            _ => frequencies.basic(&lines),
+            _ => frequencies.basic(&lines, denominator),
         };
         let share = match (motion, basic) {
             (Motion::Periodic { periods }, _) => multiples(periods as u32),
@@ -126,10 +129,10 @@ impl VoltageSpectrum {
             let Line { omega, amplitude } = *line;
             match torus {
                 Some(basic) => {
-                    let multiple = frequencies.multiple(omega);
+                    let multiple = frequencies.multiple(omega, denominator);
                     let exact = match multiple {
-                        Some(numerator) => Some(Label::Excitation { numerator, denominator: 1 }),
-                        None => frequencies.torus_label(omega, basic),
+                        Some(_) => frequencies.excitation_label(omega),
+                        None => frequencies.torus_label(omega, basic, denominator),
                     };
                     let near = if multiple.is_some() { None } else { frequencies.own_label(omega) };
                     Peak { omega, amplitude, label: exact, near }

@@ -70,15 +70,13 @@ impl App {
             notes.push((
                 "sweep",
                 format!(
-                    "{} from {} to {}, {} values, {} periods dropped and {} kept at each, {} times as many dropped \
-                     where it starts from the scenario's start",
+                    "{} from {} to {}, {} values, at least {} periods dropped and {} kept at each",
                     sweep.parameter.field(),
                     exact(from),
                     exact(to),
                     sweep.count,
                     sweep.dwell.discarded,
-                    sweep.dwell.kept,
-                    crate::dynamics::sweep::SETTLING
+                    sweep.dwell.kept
                 ),
             ));
         }

@@ -59,16 +59,26 @@ fn title(source: Source) -> &'static str {
         Source::Multipliers => tr("Multipliers"),
         Source::Recurrence => tr("Recurrence"),
         Source::Points => tr("Poincaré points"),
+        Source::Beside => tr("Other starts"),
+        Source::Rotation => tr("Rotation number"),
+        Source::ZeroOne => tr("0-1 test"),
         Source::Exponent => tr("Lyapunov exponent"),
         Source::Spectrum => tr("Spectrum"),
     }
 }
+
+/// What stands before the ends that starts lead to.
+const BESIDE: &str = "rounding: ";
 
 /// What it says, in the reader's language; a spectrum names its lines one by one.
 fn says(piece: &Evidence) -> String {
     let says = strip(&piece.says);
     if piece.source == Source::Spectrum {
         return says.split(", ").map(reworded).collect::<Vec<_>>().join(", ");
+    }
+    if let Some((before, ends)) = says.split_once(BESIDE).filter(|_| piece.source == Source::Beside) {
+        let ends: Vec<String> = ends.split("; ").map(reworded).collect();
+        return reworded(&format!("{before}{BESIDE}{}", ends.join("; ")));
     }
     reworded(says)
 }

@@ -10,6 +10,8 @@ use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
+use crate::dynamics::Motion;
+use crate::dynamics::sweep::SweepPoint;
 use crate::jobs::study::Study as _;
 use crate::jobs::study::sweep::{Direction, SweepStudy};
 
@@ -28,6 +30,9 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 14.0;
         legend::legend_entry(ui, Series::Up, tr("upwards"));
         legend::legend_entry(ui, Series::Down, tr("downwards"));
+        if any_unsettled(study) {
+            legend::legend_entry(ui, Series::Unsettled, tr("not settled"));
+        }
         ui.label(RichText::new(said(study)).small().color(theme::tokens(ui).text_weak));
     });
     if let Some(message) = study.failure() {
@@ -35,7 +40,8 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
         plot_style::no_data(ui, rect, message);
         return;
     }
-    let ways = [Direction::Up, Direction::Down].map(|direction| strobe(study, direction));
+    let ways = [Direction::Up, Direction::Down].map(|direction| strobe(study, direction, settled));
+    let open = both(|direction| strobe(study, direction, |point| !settled(point)));
     let (name, symbol) = sweep::title(study.question().parameter);
     let (x, y) = (Axis::new(name, symbol), Axis::new(tr("voltage at t = 2πk/ω"), "v").unit("V"));
     let range = study.question().range;
@@ -48,6 +54,7 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
             plot.vline(VLine::new("", value).color(colour).width(1.0).allow_hover(false));
             plot_style::points(plot, Series::Down, tr("downwards"), &ways[1]);
             plot_style::points(plot, Series::Up, tr("upwards"), &ways[0]);
+            plot_style::points(plot, Series::Unsettled, tr("not settled"), &open);
         });
     go_where_clicked(context, &response, study);
 }
@@ -61,7 +68,7 @@ fn said(study: &SweepStudy) -> String {
         .filter(|point| point.restarted)
         .count();
     let mut text = fill(
-        "state carried from value to value; {dropped} periods dropped, {kept} kept",
+        "state carried from value to value; {dropped} periods dropped or more, until settled; {kept} kept",
         &[("dropped", &dwell.discarded), ("kept", &dwell.kept)],
     );
     if restarts > 0 {
@@ -70,8 +77,23 @@ fn said(study: &SweepStudy) -> String {
     text
 }
 
-fn strobe(study: &SweepStudy, direction: Direction) -> Vec<PlotPoint> {
-    let points = study.points(direction).iter();
+/// Whether the motion there is known.
+pub(super) fn settled(point: &SweepPoint) -> bool {
+    !matches!(point.motion, Motion::Undecided { .. })
+}
+
+/// Whether one is not.
+pub(super) fn any_unsettled(study: &SweepStudy) -> bool {
+    both(|direction| study.points(direction).to_vec()).iter().any(|point| !settled(point))
+}
+
+/// What there is of the ways up and down together.
+pub(super) fn both<T>(of: impl Fn(Direction) -> Vec<T>) -> Vec<T> {
+    [of(Direction::Up), of(Direction::Down)].into_iter().flatten().collect()
+}
+
+fn strobe(study: &SweepStudy, direction: Direction, which: impl Fn(&SweepPoint) -> bool) -> Vec<PlotPoint> {
+    let points = study.points(direction).iter().filter(|point| which(point));
     points.flat_map(|point| point.strobe.iter().map(|v| PlotPoint::new(point.value, *v))).collect()
 }
 

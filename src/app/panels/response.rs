@@ -3,6 +3,7 @@
 use egui::Ui;
 use egui_plot::{PlotPoint, VLine};
 
+use super::orbit_diagram::settled;
 use super::{Context, orbit_diagram, sweep};
 use crate::app::crew::Response;
 use crate::app::text::{fill, tr};
@@ -71,15 +72,16 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(study) = context.studies.sweep.study() else { return };
     let Some(shown) = context.shown() else { return };
     let measure = Measure::new(context.view.sweep.output, &shown.scenario, &shown.run.system);
-    legend::legend(
-        ui,
-        &[
-            (Series::Up, tr("upwards")),
-            (Series::Down, tr("downwards")),
-            (Series::Stable, tr("stable")),
-            (Series::Unstable, tr("unstable")),
-        ],
-    );
+    let mut entries = vec![
+        (Series::Up, tr("upwards")),
+        (Series::Down, tr("downwards")),
+        (Series::Stable, tr("stable")),
+        (Series::Unstable, tr("unstable")),
+    ];
+    if orbit_diagram::any_unsettled(study) {
+        entries.push((Series::Unsettled, tr("not settled")));
+    }
+    legend::legend(ui, &entries);
     let swept = study.question().parameter;
     let matching = |work: &Work| matches!(work, Work::Response { parameter, .. } if *parameter == swept);
     let found = context.studies.response().filter(|response| matching(response.question));
@@ -94,7 +96,8 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     let lines: Vec<(Series, String, Vec<PlotPoint>)> =
         branches.iter().flat_map(|curve| lines(curve, &measure)).collect();
     let marks: Vec<(String, [f64; 2])> = branches.iter().flat_map(|curve| marks(curve, &measure)).collect();
-    let ways = [Direction::Up, Direction::Down].map(|direction| reached(study, direction, &measure));
+    let ways = [Direction::Up, Direction::Down].map(|direction| reached(study, direction, &measure, settled));
+    let open = orbit_diagram::both(|direction| reached(study, direction, &measure, |point| !settled(point)));
     let (name, symbol) = sweep::title(study.question().parameter);
     let (x, y) = (Axis::new(name, symbol), measure.axis());
     let range = study.question().range;
@@ -112,6 +115,7 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
             }
             plot_style::points(plot, Series::Down, tr("downwards"), &ways[1]);
             plot_style::points(plot, Series::Up, tr("upwards"), &ways[0]);
+            plot_style::points(plot, Series::Unsettled, tr("not settled"), &open);
             for (name, place) in &marks {
                 plot_style::special_point(plot, name, (*place).into());
             }
@@ -119,7 +123,12 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     orbit_diagram::go_where_clicked(context, &response, study);
 }
 
-fn reached(study: &SweepStudy, direction: Direction, measure: &Measure) -> Vec<PlotPoint> {
+fn reached(
+    study: &SweepStudy,
+    direction: Direction,
+    measure: &Measure,
+    which: impl Fn(&SweepPoint) -> bool,
+) -> Vec<PlotPoint> {
     let values = |point: &SweepPoint| {
         measure
             .values(point.v_rms, point.power, point.tip)
@@ -127,7 +136,7 @@ fn reached(study: &SweepStudy, direction: Direction, measure: &Measure) -> Vec<P
             .map(move |y| (point.value, y))
             .collect::<Vec<_>>()
     };
-    let points = study.points(direction).iter().filter(|point| !point.ended);
+    let points = study.points(direction).iter().filter(|point| !point.ended && which(point));
     points.flat_map(values).map(|(x, y)| PlotPoint::new(x, y)).collect()
 }
 

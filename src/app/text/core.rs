@@ -7,10 +7,15 @@ use super::{fill_with, is_english, marked, tr};
 use crate::dynamics::motion::Motion;
 
 /// The sentences, the more special before the more general. A value may be another sentence.
-const SENTENCES: [&str; 98] = [
+const SENTENCES: [&str; 109] = [
     // Motions.
     marked("a start on the stable forced motion leads to another motion: {motion}, {volts} V rms"),
     marked("a start at rest leads to another motion: {motion}, {volts} V rms"),
+    marked("a start that differs by rounding leads to another motion: {motion}, {volts} V rms"),
+    marked("a start on a motion met on the way leads to another motion: {motion}, {volts} V rms"),
+    marked("starts that differ by rounding: {ends}"),
+    marked("{count} × {motion}, {volts} V rms"),
+    marked("{count} × {motion}"),
     marked(
         "period {periods} stable, largest modulus {modulus}; the run ends {distance} of the amplitude from it",
     ),
@@ -31,7 +36,11 @@ const SENTENCES: [&str; 98] = [
     marked("the exponent is zero, but the stroboscopic points lie on no closed curves"),
     marked("the motion is too fast to differentiate"),
     marked("the evidence disagrees"),
+    marked("it moves chaotically, but may still settle"),
+    marked("the outcome depends on rounding"),
     // Warnings.
+    marked("neighbouring motions diverge until it settles, at t = {time}"),
+    marked("to decide would take about {time} more in t"),
     marked("the force law is {percent} % too weak at closest approach"),
     marked("the force law is {percent} % too strong at closest approach"),
     marked("the tip passes through the magnet: only the exact force law knows of contact"),
@@ -48,6 +57,8 @@ const SENTENCES: [&str; 98] = [
     marked("stroboscopic points lie on closed curves: dimension {dimension}"),
     marked("stroboscopic points fill a surface: dimension {dimension}"),
     marked("stroboscopic points are scattered: dimension {dimension}"),
+    marked("rotation number {number}, the halves of the record differ by {error}"),
+    marked("0-1 test {value}: 0 is regular, 1 chaotic"),
     marked("{text}; by the multipliers {value}"),
     marked("exponent {value}: zero"),
     marked("exponent {value}, not converged"),

@@ -41,6 +41,8 @@ pub enum Series {
     Up,
     /// Reached by a sweep downwards: small rings.
     Down,
+    /// What a sweep has not settled at: hollow diamonds.
+    Unsettled,
     /// A stable branch: a solid line.
     Stable,
     /// An unstable branch: short dashes.
@@ -74,6 +76,7 @@ impl Series {
             Self::FromRest => tokens.poincare,
             Self::Up => tokens.numeric,
             Self::Down => tokens.warning,
+            Self::Unsettled => tokens.danger,
             Self::Stable | Self::Unstable => tokens.ok,
             Self::Linear => tokens.text_weak,
             Self::Measured => tokens.theory,
@@ -100,6 +103,7 @@ impl Series {
             Self::Best => Pen::Dashes(2.4, 20.0),
             Self::Up => Pen::Points(2.6),
             Self::Down => Pen::Rings(3.2),
+            Self::Unsettled => Pen::HollowDiamonds(4.0),
             Self::Stable => Pen::Line(2.4),
             Self::Unstable => Pen::Dashes(1.5, 5.0),
             Self::Linear => Pen::Dashes(1.8, 10.0),
@@ -168,9 +172,12 @@ fn paint_mark(ui: &Ui, at: egui::Pos2, pen: Pen, colour: Color32) {
             ui.painter().line_segment([corner(-0.8, -0.8), corner(0.8, 0.8)], stroke);
             ui.painter().line_segment([corner(-0.8, 0.8), corner(0.8, -0.8)], stroke);
         }
-        Pen::Diamonds(_) => {
+        Pen::Diamonds(_) | Pen::HollowDiamonds(_) => {
             let corners = vec![corner(0.0, -1.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(-1.0, 0.0)];
-            ui.painter().add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+            ui.painter().add(match pen {
+                Pen::Diamonds(_) => Shape::convex_polygon(corners, colour, Stroke::NONE),
+                _ => Shape::closed_line(corners, stroke),
+            });
         }
         Pen::Squares(_) => {
             ui.painter().rect_filled(

@@ -109,7 +109,7 @@ pub(super) fn mark(pen: Pen, radius: f64) -> String {
     match pen {
         Pen::Rings(_) => format!("m-{r} 0a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0-{d} 0"),
         Pen::Crosses(_) => format!("m-{r}-{r}l{d} {d}m0-{d}l-{d} {d}"),
-        Pen::Diamonds(_) => format!("m0-{r}l{r} {r}-{r} {r}-{r}-{r}z"),
+        Pen::Diamonds(_) | Pen::HollowDiamonds(_) => format!("m0-{r}l{r} {r}-{r} {r}-{r}-{r}z"),
         // The ends of a line without length make a disc or a square of it, at a tenth of a circle's text.
         _ => "h0".to_owned(),
     }
@@ -119,7 +119,9 @@ pub(super) fn mark(pen: Pen, radius: f64) -> String {
 pub(super) fn marked(colour: Rgba, pen: Pen, radius: f64) -> String {
     match pen {
         Pen::Diamonds(_) => filled(colour),
-        Pen::Rings(_) | Pen::Crosses(_) => format!(" fill=\"none\"{}", stroke(colour, 1.2)),
+        Pen::Rings(_) | Pen::Crosses(_) | Pen::HollowDiamonds(_) => {
+            format!(" fill=\"none\"{}", stroke(colour, 1.2))
+        }
         _ => {
             let cap = if matches!(pen, Pen::Squares(_)) { "square" } else { "round" };
             format!(" fill=\"none\"{} stroke-linecap=\"{cap}\"", stroke(colour, 2.0 * radius))
@@ -147,6 +149,7 @@ pub(super) fn drawn(colour: Rgba, pen: Pen) -> String {
         | Pen::Rings(size)
         | Pen::Crosses(size)
         | Pen::Diamonds(size)
+        | Pen::HollowDiamonds(size)
         | Pen::Squares(size) => stroke(colour, 0.8 * f64::from(size)),
     }
 }

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::linear::linear_balance;
 use super::{DesignError, Plant};
-use crate::dynamics::motion::Horizon;
-use crate::dynamics::{Balance, ForcedMotion, Motion, reach};
+use crate::dynamics::{Balance, Effort, ForcedMotion, Motion, reach};
 use crate::model::{Demand, ReducedSystem};
 use crate::scenario::Scenario;
 
@@ -143,7 +142,7 @@ pub fn operating(scenario: &Scenario) -> Result<Operating, DesignError> {
 /// # Errors
 /// As [`reach`].
 pub fn lasting(plant: &Plant, system: &ReducedSystem, initial: &[f64]) -> Result<Lasting, DesignError> {
-    let reached = reach(system, initial, Horizon::chart(plant.scenario.t_end))?;
+    let reached = reach(system, initial, Effort::cell())?;
     let motion = reached.motion;
     let balance = match (&reached.orbit, motion) {
         (_, Motion::Escape { .. } | Motion::Contact { .. }) => None,

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::linear::linear_peak;
 use super::{Asked, Bounds, DesignError, HarvestPoint, Plant};
-use crate::dynamics::motion::{Cell, Horizon};
+use crate::dynamics::Effort;
+use crate::dynamics::motion::Cell;
 use crate::dynamics::orbit::Measures;
 use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError, reach};
 use crate::jobs::response::response;
@@ -128,7 +129,7 @@ pub fn reached_loads(
         let plant = plant.with_resistance(*resistance)?;
         let system = plant.system()?;
         let from = carried.as_ref().unwrap_or(&start);
-        let reached = reach(&system, from, Horizon::chart(scenario.t_end))?;
+        let reached = reach(&system, from, Effort::cell())?;
         let point = LoadPoint::of_cell(&plant, &reached.cell());
         let orbit = reached.orbit.map(|orbit| orbit.state);
         carried = point.stable.then(|| orbit.unwrap_or(reached.state));

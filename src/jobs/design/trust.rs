@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
-use crate::dynamics::motion::Horizon;
+use crate::dynamics::Effort;
 use crate::dynamics::tongue::Window;
 use crate::dynamics::{Motion, reach};
 use crate::model::force::Exact;
@@ -68,7 +68,7 @@ pub fn trust_entry(
         let tip = lowest_threshold(&system, resonance, Window::default().limit)?;
         return Ok(TrustEntry { modes, law, value: tip.map(|tip| tip.beta), motion: None });
     }
-    let cell = reach(&system, &initial, Horizon::chart(scenario.t_end))?.cell();
+    let cell = reach(&system, &initial, Effort::cell())?.cell();
     let value = cell.demand().map(|demand| match quantity {
         Quantity::Power => plant.watts(cell.v_rms),
         Quantity::Tip => plant.units.millimetres(demand.tip.1.max(-demand.tip.0)),

@@ -22,8 +22,6 @@ pub struct BasinQuestion {
     pub y: (usize, (f64, f64)),
     /// Number of columns and rows.
     pub size: (usize, usize),
-    /// How long a start is followed before its class is asked for (dimensionless).
-    pub t_end: f64,
 }
 
 impl BasinQuestion {
@@ -32,13 +30,13 @@ impl BasinQuestion {
     ///
     /// # Errors
     /// [`ModelError`] naming what of the scenario is out of range.
-    pub fn first_mode(scenario: Scenario, size: (usize, usize), t_end: f64) -> Result<Self, ModelError> {
+    pub fn first_mode(scenario: Scenario, size: (usize, usize)) -> Result<Self, ModelError> {
         let (system, _) = scenario.validate()?;
         let modes = scenario.model.modes;
         let gap = system.equilibrium.gap;
         let omega = system.modes.iter().next().map_or(1.0, |mode| mode.omega);
         let (x, y) = ((0, (-gap, gap)), (modes, (-omega * gap, omega * gap)));
-        Ok(Self { scenario, x, y, size, t_end })
+        Ok(Self { scenario, x, y, size })
     }
 
     /// The same question about motions.
@@ -48,7 +46,6 @@ impl BasinQuestion {
             x: (Coordinate::Start(self.x.0), self.x.1),
             y: (Coordinate::Start(self.y.0), self.y.1),
             size: self.size,
-            t_end: self.t_end,
         }
     }
 }
@@ -214,7 +211,7 @@ mod tests {
 
     #[test]
     fn attractors_keep_their_numbers_while_their_order_changes() {
-        let question = BasinQuestion::first_mode(Scenario::default(), (24, 24), 600.0).expect("a plane");
+        let question = BasinQuestion::first_mode(Scenario::default(), (24, 24)).expect("a plane");
         let mut basin = Basin::new(question).expect("valid");
         let mut answer = |pick: fn(usize) -> Option<Motion>| {
             let (ticket, work) = basin.next().expect("work");
@@ -239,7 +236,7 @@ mod tests {
 
     /// The second place that a chart of 24 x 24 cells asks for.
     fn basin_place(index: usize) -> [f64; 2] {
-        let question = BasinQuestion::first_mode(Scenario::default(), (24, 24), 600.0).expect("a plane");
+        let question = BasinQuestion::first_mode(Scenario::default(), (24, 24)).expect("a plane");
         let Some((_, Work::Motions { places, .. })) = Basin::new(question).expect("valid").next() else {
             panic!("motions are asked for")
         };

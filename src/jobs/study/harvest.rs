@@ -168,7 +168,6 @@ impl HarvestStudy {
             scenario: Scenario { initial: None, ..self.plant.scenario.clone() },
             x: Coordinate::Parameter(Parameter::Omega),
             y: Coordinate::Parameter(Parameter::Beta),
-            t_end: self.plant.scenario.t_end,
         };
         let places =
             (begin..end).map(|index| [self.omega(index), self.plant.beta_at(self.omega(index))]).collect();

@@ -10,7 +10,7 @@ pub use crate::jobs::motions::Coordinate;
 use crate::jobs::motions::{MotionPlane, at_place};
 use crate::jobs::work::{Finding, Work};
 use crate::model::{ModelError, Units};
-use crate::scenario::{END_TIME, Scenario};
+use crate::scenario::Scenario;
 
 /// Columns and rows a chart may have.
 pub const SIZES: (usize, usize) = (2, 512);
@@ -31,8 +31,6 @@ pub struct MotionQuestion {
     pub y: (Coordinate, (f64, f64)),
     /// Number of columns and rows.
     pub size: (usize, usize),
-    /// How long a start is followed before its class is asked for (dimensionless).
-    pub t_end: f64,
 }
 
 impl MotionQuestion {
@@ -55,7 +53,7 @@ impl MotionQuestion {
                 return Err(ModelError::Count { field, value, minimum, maximum });
             }
         }
-        ModelError::check("t_end", self.t_end, END_TIME, "").map(|_| ())
+        Ok(())
     }
 
     /// The two coordinates of a cell.
@@ -70,7 +68,7 @@ impl MotionQuestion {
     }
 
     fn plane(&self) -> MotionPlane {
-        MotionPlane { scenario: self.scenario.clone(), x: self.x.0, y: self.y.0, t_end: self.t_end }
+        MotionPlane { scenario: self.scenario.clone(), x: self.x.0, y: self.y.0 }
     }
 }
 
@@ -211,7 +209,7 @@ impl Study for MotionChart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::{Horizon, reach};
+    use crate::dynamics::{Effort, reach};
     use crate::jobs::study::complete;
     use crate::model::{Parameter, ParameterSet};
 
@@ -222,7 +220,6 @@ mod tests {
             x: (Coordinate::Parameter(Parameter::Omega), (7.9, 8.3)),
             y: (Coordinate::Parameter(Parameter::Beta), (1e-4, 4e-3)),
             size,
-            t_end: 600.0,
         }
     }
 
@@ -238,7 +235,7 @@ mod tests {
             let [omega, beta] = question.place((column, row));
             let set = ParameterSet { omega, beta, ..question.scenario.parameters };
             let system = question.scenario.model.system(set).expect("a device");
-            let expected = reach(&system, &[0.0; 5], Horizon::chart(600.0)).expect("a motion").cell();
+            let expected = reach(&system, &[0.0; 5], Effort::cell()).expect("a motion").cell();
             assert_eq!(chart.shown(column, row), Some(Some(expected)), "{column} {row}");
             doubled += usize::from(expected.motion == Motion::Periodic { periods: 2 });
         }
@@ -251,8 +248,7 @@ mod tests {
         let parameters = ParameterSet { c0: -0.5, d: 1.5, ..Default::default() };
         let scenario = Scenario { parameters, ..Default::default() };
         let (x, y) = (Coordinate::Parameter(Parameter::D), Coordinate::Start(0));
-        let question =
-            MotionQuestion { scenario, x: (x, (0.05, 1.5)), y: (y, (0.0, 0.01)), size: (5, 2), t_end: 200.0 };
+        let question = MotionQuestion { scenario, x: (x, (0.05, 1.5)), y: (y, (0.0, 0.01)), size: (5, 2) };
         let mut chart = MotionChart::new(question);
         complete(&mut chart);
         assert!(chart.finished() && chart.failure().is_none());
@@ -261,11 +257,10 @@ mod tests {
     }
 
     #[test]
-    fn sides_sizes_and_times_are_checked() {
+    fn sides_and_sizes_are_checked() {
         assert!(question((16, 16)).validate().is_ok());
         assert!(question((1, 16)).validate().is_err());
         assert!(question((16, 513)).validate().is_err());
-        assert!(MotionQuestion { t_end: 1e5, ..question((16, 16)) }.validate().is_err());
         let side = question((16, 16)).x;
         let same = MotionQuestion { y: side, ..question((16, 16)) }.validate();
         let message = "both sides of the chart are omega: they must differ";

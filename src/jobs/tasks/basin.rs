@@ -24,7 +24,7 @@ pub struct BasinRequest {
     pub y: Option<Side>,
     /// The other components of the start (length 2N + 1), rest when absent.
     pub initial: Option<Vec<f64>>,
-    /// How long a start is followed before its class is asked for (dimensionless); 600 when absent.
+    /// Allowed, and without effect: a start is followed until its motion is known.
     pub t_end: Option<f64>,
     /// Numbers of columns and rows where a side does not say; 41 when absent.
     pub count: Option<usize>,
@@ -113,14 +113,16 @@ impl BasinRequest {
     /// # Errors
     /// [`RequestError`] when a number is out of range, or a part of the plane cannot be computed.
     pub fn answer(&self) -> Result<Answer, RequestError> {
-        let t_end = ModelError::check("t_end", self.t_end.unwrap_or(600.0), END_TIME, "")?;
+        if let Some(t_end) = self.t_end {
+            ModelError::check("t_end", t_end, END_TIME, "")?;
+        }
         let system = self.model.system(self.parameters)?;
         state("initial", self.initial.as_ref(), system.dimension())?;
         let both = self.count.unwrap_or(Self::COUNT);
         count("count", both, SIZES)?;
         let (parameters, model, initial) = (self.parameters, self.model, self.initial.clone());
         let scenario = Scenario { parameters, model, initial, ..Scenario::default() };
-        let mut question = BasinQuestion::first_mode(scenario, (both, both), t_end)?;
+        let mut question = BasinQuestion::first_mode(scenario, (both, both))?;
         if let Some(side) = &self.x {
             question.x = self.side("x", side)?;
             question.size.0 = side.count.unwrap_or(both);

@@ -27,7 +27,7 @@ pub struct ChartRequest {
     pub beta: Span,
     /// What is charted.
     pub quantity: Quantity,
-    /// How long a start is followed before its class is asked for (dimensionless).
+    /// Allowed, and without effect: a start is followed until its motion is known.
     #[serde(default = "ChartRequest::default_end")]
     pub t_end: f64,
     /// The start (length 2N + 1), rest when absent.
@@ -128,7 +128,6 @@ impl ChartRequest {
             x: (Coordinate::Parameter(Parameter::Omega), self.omega.range()),
             y: (Coordinate::Parameter(Parameter::Beta), self.beta.range()),
             size: self.size(),
-            t_end: self.t_end,
         };
         question.validate()?;
         let mut chart = MotionChart::new(question);

@@ -16,7 +16,8 @@ pub struct VerdictRequest {
     pub parameters: ParameterSet,
     /// Modes and force law.
     pub model: ModelChoice,
-    /// How long the start is followed before its class is asked for (dimensionless).
+    /// What is shown of the motion (dimensionless): how far it is from its end then is told. The start is followed until its
+    /// motion is known, however long that takes.
     pub t_end: f64,
     /// State at time 0, length 2N + 1; rest when absent.
     pub initial: Option<Vec<f64>>,

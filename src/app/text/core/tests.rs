@@ -146,17 +146,21 @@ fn sentences_of_the_core_are_known() {
         Undecided::PointsScattered,
         Undecided::Unresolved,
         Undecided::EvidenceDisagrees,
+        Undecided::MayBeTransient,
+        Undecided::DependsOnRounding,
     ];
     let mut said: Vec<String> = whys.iter().map(|why| Motion::Undecided { why: *why }.to_string()).collect();
     let escape = Motion::Escape { time: 2.5 };
     let motions = [Motion::Periodic { periods: 2 }, Motion::Quasiperiodic, Motion::Chaotic, escape];
     said.extend(motions.iter().map(ToString::to_string));
     said.push(Motion::Contact { time: 2.5 }.to_string());
-    for start in [OtherStart::ForcedMotion, OtherStart::Rest] {
+    for start in [OtherStart::ForcedMotion, OtherStart::Rest, OtherStart::Beside, OtherStart::OnTheWay] {
         said.push(Coexisting { start, motion: motions[0], v_rms: 2.0, power: 1e-6 }.to_string());
     }
     for warning in [
         Warning::TransientLeft { fraction: 0.01 },
+        Warning::TransientChaos { time: 900.0 },
+        Warning::WouldTake { time: 900.0 },
         Warning::ForceLaw { missing: 0.2 },
         Warning::ForceLaw { missing: -0.2 },
         Warning::PassesMagnet,

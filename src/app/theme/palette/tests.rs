@@ -88,8 +88,8 @@ const PLOTS: [PlotOf; 14] = [
     PlotOf { name: "time history", lines: &[Numeric, Ghost], marks: &[Theory] },
     PlotOf { name: "multipliers", lines: &[Ghost], marks: &[Forced, Reached] },
     PlotOf { name: "bifurcation curves", lines: &[Exact, Torus, Fold], marks: &[] },
-    PlotOf { name: "orbit diagram", lines: &[], marks: &[Up, Down] },
-    PlotOf { name: "response", lines: &[Stable, Unstable, Ghost], marks: &[Up, Down] },
+    PlotOf { name: "orbit diagram", lines: &[], marks: &[Up, Down, Unsettled] },
+    PlotOf { name: "response", lines: &[Stable, Unstable, Ghost], marks: &[Up, Down, Unsettled] },
     PlotOf {
         name: "harvest",
         lines: &[Linear, Stable, Unstable, Ghost],

@@ -117,6 +117,7 @@ pub fn faded_points<'a>(
         (Series::TheoryPoint, _) => (7.0, 1.0),
         (Series::Reached, _) => (6.5, 1.0),
         (Series::Down, _) => (2.6, 0.8),
+        (Series::Unsettled, _) => (3.6, 1.0),
         (Series::Beyond, _) => (4.5, 1.0),
         (_, 0..=40) => (5.0, 1.0),
         (_, 41..=400) => (2.6, 0.9),
@@ -128,13 +129,14 @@ pub fn faded_points<'a>(
         Pen::Rings(_) => (Pen::Rings(radius), MarkerShape::Circle),
         Pen::Crosses(_) => (Pen::Crosses(radius), MarkerShape::Cross),
         Pen::Diamonds(_) => (Pen::Diamonds(radius), MarkerShape::Diamond),
+        Pen::HollowDiamonds(_) => (Pen::HollowDiamonds(radius), MarkerShape::Diamond),
         Pen::Squares(_) => (Pen::Squares(radius), MarkerShape::Square),
         _ => (Pen::Points(radius), MarkerShape::Circle),
     };
     record(plot, name, Some(kind), colour.gamma_multiply(opacity), pen, places);
     for run in finite_runs(places) {
         let dots = Points::new(name, PlotPoints::Borrowed(run)).color(colour.gamma_multiply(opacity));
-        let dots = dots.filled(!matches!(pen, Pen::Rings(_))).shape(shape);
+        let dots = dots.filled(!matches!(pen, Pen::Rings(_) | Pen::HollowDiamonds(_))).shape(shape);
         plot.points(dots.radius(radius).allow_hover(kind != Series::Ghost));
     }
 }

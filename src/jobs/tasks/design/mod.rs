@@ -41,7 +41,7 @@ pub struct Subject {
     pub model: ModelChoice,
     /// State at time 0, length 2N + 1; rest when absent.
     pub initial: Option<Vec<f64>>,
-    /// How long a start is followed before its class is asked for (dimensionless).
+    /// Allowed, and without effect: a start is followed until its motion is known.
     pub t_end: f64,
 }
 
