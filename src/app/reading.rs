@@ -34,7 +34,7 @@ pub(super) struct Reading {
 
 impl Reading {
     /// Reads `shown`, with the boundaries of its structure when there are some, and the `verdict` on the same scenario
-    /// once it is there: until then the stroboscopic points of the run alone decide.
+    /// once it is there: until then only stroboscopic points that have settled say anything.
     pub(super) fn new(shown: &Shown, boundaries: Option<&Boundaries>, verdict: Option<&Verdict>) -> Self {
         let (tone, headline) = verdict.map_or_else(|| first_look(shown), |verdict| headline(verdict.motion));
         let mut facts = Vec::new();
@@ -64,12 +64,12 @@ impl Reading {
 
 /// By the run alone.
 fn first_look(shown: &Shown) -> (Tone, String) {
-    match (shown.run.outcome(), shown.run.recurrence.map(|found| found.period)) {
+    match (shown.run.outcome(), shown.run.recurrence.map(|found| found.period.filter(|_| found.settled))) {
         (Outcome::Escaped { time }, _) => headline(Motion::Escape { time }),
         (Outcome::Contact { time }, _) => headline(Motion::Contact { time }),
         (Outcome::Completed, None) => (Tone::Plain, tr("Too short to classify").to_owned()),
         (Outcome::Completed, Some(Some(periods))) => headline(Motion::Periodic { periods }),
-        (Outcome::Completed, Some(None)) => (Tone::Notable, tr("Not periodic").to_owned()),
+        (Outcome::Completed, Some(None)) => (Tone::Plain, tr("Not settled yet").to_owned()),
     }
 }
 

@@ -5,10 +5,10 @@ mod truth;
 
 use harvester_lab::dynamics::sweep::{Course, Dwell, SweepPoint, sweep};
 use harvester_lab::dynamics::tongue::Window;
-use harvester_lab::dynamics::{Motion, Verdict, trace_tongue};
+use harvester_lab::dynamics::{Verdict, trace_tongue};
 use harvester_lab::model::{ForceLaw, ModelChoice, Parameter, ParameterSet, ReducedSystem, Shaking};
 use harvester_lab::theory::Resonance;
-use truth::Truth;
+use truth::{Standing, Truth, standing};
 
 /// How far around a tip, relative.
 const AROUND: (f64, f64) = (0.004, 0.1);
@@ -42,30 +42,6 @@ fn points(seed: u64, each: usize) -> Vec<(ParameterSet, ModelChoice)> {
         }
     }
     points
-}
-
-/// How an answer stands to the truth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Standing {
-    Right,
-    Undecided,
-    Wrong,
-}
-
-fn standing(truth: &Truth, motion: Motion, v_rms: f64, room: f64) -> Standing {
-    if matches!(motion, Motion::Undecided { .. }) {
-        return Standing::Undecided;
-    }
-    let near = |expected: f64| (v_rms / expected - 1.0).abs() <= room;
-    let right = match (truth, motion) {
-        (Truth::Periodic(orbit), Motion::Periodic { periods }) => {
-            periods == orbit.periods && near(orbit.measures.v_rms)
-        }
-        (Truth::Ended, Motion::Escape { .. } | Motion::Contact { .. }) => true,
-        (Truth::Open(expected), Motion::Quasiperiodic | Motion::Chaotic) => near(*expected),
-        _ => false,
-    };
-    if right { Standing::Right } else { Standing::Wrong }
 }
 
 /// The motion that a sweep of two values reaches at the first.

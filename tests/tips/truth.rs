@@ -1,7 +1,7 @@
 //! What a start leads to by brute force: a long run at a tight tolerance, closed by Newton's iteration from its end. It uses
 //! nothing of what the verdict is made of but the integrator and the map, which other tests hold to their own truths.
 
-use harvester_lab::dynamics::{Collocation, Orbit, Outcome, Settings};
+use harvester_lab::dynamics::{Collocation, Motion, Orbit, Outcome, Settings};
 use harvester_lab::model::ReducedSystem;
 
 /// Dimensionless time of the run, at least.
@@ -92,6 +92,34 @@ pub(crate) fn from_rest(system: &ReducedSystem) -> Truth {
         }
     }
     Truth::Open(open)
+}
+
+/// How an answer stands to the truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Standing {
+    /// The class is right, and the voltage within the room given.
+    Right,
+    /// It claims nothing.
+    Undecided,
+    /// It claims something else.
+    Wrong,
+}
+
+/// Of an answer with this `motion` and voltage, which may be off by `room`, relative.
+pub(crate) fn standing(truth: &Truth, motion: Motion, v_rms: f64, room: f64) -> Standing {
+    if matches!(motion, Motion::Undecided { .. }) {
+        return Standing::Undecided;
+    }
+    let near = |expected: f64| (v_rms / expected - 1.0).abs() <= room;
+    let right = match (truth, motion) {
+        (Truth::Periodic(orbit), Motion::Periodic { periods }) => {
+            periods == orbit.periods && near(orbit.measures.v_rms)
+        }
+        (Truth::Ended, Motion::Escape { .. } | Motion::Contact { .. }) => true,
+        (Truth::Open(expected), Motion::Quasiperiodic | Motion::Chaotic) => near(*expected),
+        _ => false,
+    };
+    if right { Standing::Right } else { Standing::Wrong }
 }
 
 /// Displacements, velocities and voltages of comparable energy.
