@@ -104,7 +104,6 @@ fn a_chart_in_si_units_is_the_chart_of_the_numbers() -> TestResult {
         x: axis(Dimension::Frequency, (2.7, 2.9)),
         y: axis(Dimension::MagnetDistance, (0.2, 0.4)),
         size: (3, 3),
-        t_end: 200.0,
     };
     question.validate()?;
     let mut chart = MotionChart::new(question);
@@ -121,7 +120,6 @@ fn a_chart_in_si_units_is_the_chart_of_the_numbers() -> TestResult {
         x: (Coordinate::Parameter(Parameter::Omega), (place.parameters.omega, 9.0)),
         y: (Coordinate::Parameter(Parameter::Beta), (place.parameters.beta, 0.02)),
         size: (2, 2),
-        t_end: 200.0,
     };
     let mut same = MotionChart::new(plane);
     complete(&mut same);

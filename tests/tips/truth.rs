@@ -7,9 +7,11 @@ use harvester_lab::model::ReducedSystem;
 /// Dimensionless time of the run, at least.
 const DURATION: f64 = 20_000.0;
 /// Excitation periods after which a run that still leaves an unstable motion is given up.
-const MOST_PERIODS: usize = 400_000;
+const MOST_PERIODS: usize = 4_000_000;
 /// Longest period that is looked for.
 const LONGEST: usize = 12;
+/// Change of the voltage from one stretch of the run to the next, relative, that is none.
+const STEADY: f64 = 0.02;
 /// Distance from the orbit, relative to its size, at which the run has arrived.
 const ARRIVED: f64 = 1e-3;
 
@@ -86,8 +88,11 @@ pub(crate) fn from_rest(system: &ReducedSystem) -> Truth {
             leaving |= off(&state) <= 0.3 * unit;
         }
         earlier = Some(state);
-        open = (square / count).sqrt();
-        if !leaving {
+        let now = (square / count).sqrt();
+        // What drifts is still on its way.
+        let steady = (now / open - 1.0).abs() <= STEADY;
+        open = now;
+        if steady && !leaving {
             break;
         }
     }
