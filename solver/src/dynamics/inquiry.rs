@@ -11,7 +11,7 @@ use super::lyapunov::{Exponent, Lyapunov, Progress, Sign};
 use super::motion::{Cell, Motion, Reached, Undecided};
 use super::orbit::Measures;
 use super::signature::{Recogniser, Signature};
-use super::strobe::{KEPT, Strobe};
+use super::strobe::{GEOMETRY, Strobe};
 use super::verdict::{
     Coexisting, ForcedSummary, OtherStart, Verdict, VerdictError, Warning, deflection_warning,
     force_law_warning, forced_warning, transient_warning,
@@ -288,7 +288,7 @@ impl Findings<'_> {
         };
         let mut strobe = Strobe::new(self.system);
         let mut integrator = Collocation::new(self.system, &self.reached.state, Settings::default()).ok()?;
-        let end = KEPT as f64 * self.system.parameters.period();
+        let end = GEOMETRY as f64 * self.system.parameters.period();
         integrator
             .advance(end, usize::MAX, &mut |step| {
                 if step.index == 0 {

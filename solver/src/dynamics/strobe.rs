@@ -7,7 +7,7 @@ use super::poincare::{PhasePoint, Recurrence, recurrence};
 use crate::model::ReducedSystem;
 
 /// States kept.
-pub(super) const KEPT: usize = 1024;
+const KEPT: usize = 4096;
 /// States that recurrence is asked of, a few more than it compares.
 const RECENT: usize = 64;
 /// Distance of states, relative to the amplitude, that are a near return.
@@ -19,7 +19,7 @@ const EARLIER: usize = 512;
 /// Longest near return looked for, in excitation periods.
 const LONGEST_RETURN: usize = 64;
 /// States whose geometry is looked at.
-const GEOMETRY: usize = 512;
+pub(super) const GEOMETRY: usize = 512;
 /// Neighbours whose distances give the dimension.
 const NEIGHBOURS: (usize, usize) = (4, 16);
 

@@ -27,8 +27,12 @@ const MAP_ERROR: f64 = 2e-9;
 const NEUTRAL: f64 = 1e-8;
 /// A direction whose deviation shrinks below this in the window need not be watched.
 const FAST: f64 = 1e-3;
-/// Most returns to the orbit that are looked at, fewest, and those within which a deviation shrinks to 1/e, four times.
-const WINDOW: (usize, usize) = (8, 768);
+/// Fewest returns to the orbit that are looked at, and most.
+const WINDOW: (usize, usize) = (8, 3000);
+/// Decay that must be seen in each third of the window (natural logarithm): so much for a deviation of the size of the gap,
+/// since the force's curvature bends the decay in proportion to the deviation, but no less and no more than the limits.
+const SEEN: f64 = 10.0;
+const SEEN_LIMITS: (f64, f64) = (2e-3, 0.25);
 /// Measured over promised rate, lowest and highest, in each of the last two thirds of the window.
 const RATE: (f64, f64) = (0.65, 1.5);
 /// A direction whose part of the deviation is smaller than this, relative to the largest, is watched only when it is the
@@ -204,8 +208,13 @@ impl Neighbourhood {
                 continue;
             }
             let rate = -own.ln();
-            let window = window(rate, held);
-            let third = window / 3;
+            let seen = (SEEN * size / gap).clamp(SEEN_LIMITS.0, SEEN_LIMITS.1);
+            // An even number, as a multiplier near -1 changes the sign at every return.
+            let third = 2 * ((0.5 * seen / rate).ceil() as usize).max(WINDOW.0 / 4);
+            let periods = 3.0 * period as f64 / rate;
+            if 3 * third > held.min(WINDOW.1) {
+                return Relation::Approaching { periods };
+            }
             let logs: Vec<f64> =
                 (0..3).map(|i| mean_log(|k| part(direction, k), i * third, (i + 1) * third)).collect();
             let promised = third as f64 * rate;
@@ -215,7 +224,6 @@ impl Neighbourhood {
             };
             if !(kept(logs[1], logs[0]) && kept(logs[2], logs[1])) {
                 let nearer = logs[0] < logs[1] - SATURATED * promised;
-                let periods = 3.0 * period as f64 / rate;
                 return if nearer { Relation::Approaching { periods } } else { Relation::Apart };
             }
         }
@@ -228,9 +236,9 @@ fn watched(multiplier: Complex<f64>) -> bool {
     multiplier.norm().powi(WINDOW.0 as i32) > FAST
 }
 
-/// Returns within which a deviation changes by e^3 at the `rate` per return, no more than are `held`.
+/// Returns within which a deviation changes by half at the `rate` per return, no more than are `held`.
 fn window(rate: f64, held: usize) -> usize {
-    ((3.0 / rate).ceil().min(1e6) as usize).clamp(WINDOW.0 + 1, WINDOW.1).min(held)
+    ((0.7 / rate).ceil().min(1e6) as usize).clamp(WINDOW.0 + 1, WINDOW.1).min(held)
 }
 
 /// Mean logarithm of `size` over `from..to` returns back.
