@@ -233,3 +233,18 @@ fn a_motion_is_written_in_snake_case() -> TestResult {
     assert_eq!(serde_json::from_str::<Motion>(&text)?, undecided);
     Ok(())
 }
+
+/// Starts that pass a stable motion at a quarter of the gap, shrinking as fast as it attracts, and then turn away from it.
+/// Long runs at tolerances 1e-5 to 1e-10 end with period 2.
+#[test]
+fn passing_a_stable_motion_is_not_reaching_it() -> TestResult {
+    let system = system(1e-4, 0.005, 8.4, ForceLaw::Exact)?;
+    let step = |index: f64| GAP * (2.0 * index / 63.0 - 1.0);
+    for (column, row) in [(60.0, 43.0), (48.0, 56.0)] {
+        let start = [step(column), 0.0, OMEGA_1 * step(row), 0.0, 0.0];
+        let reached = reach(&system, &start, Effort::cell())?;
+        assert_eq!(reached.motion, Motion::Periodic { periods: 2 });
+        assert!(reached.measures.is_some_and(|measures| (measures.v_rms - 14.0528).abs() < 1e-3));
+    }
+    Ok(())
+}

@@ -14,6 +14,8 @@ use crate::model::ReducedSystem;
 
 /// Distance from the orbit, relative to the amplitude of the run, beyond which nothing is asked.
 const FAR: f64 = 0.3;
+/// The same relative to the gap, beyond which a decay at the orbit's rate is a coincidence.
+const NEAR: f64 = 0.1;
 /// Distance, relative to the gap, within which the magnet's force is as good as linear.
 const LINEAR: f64 = 0.01;
 /// Amplitude, relative to the gap, below which a motion is rest.
@@ -34,7 +36,7 @@ const WINDOW: (usize, usize) = (8, 3000);
 const SEEN: f64 = 10.0;
 const SEEN_LIMITS: (f64, f64) = (2e-3, 0.25);
 /// Measured over promised rate, lowest and highest, in each of the last two thirds of the window.
-const RATE: (f64, f64) = (0.65, 1.5);
+const RATE: (f64, f64) = (0.8, 1.25);
 /// A direction whose part of the deviation is smaller than this, relative to the largest, is watched only when it is the
 /// slowest.
 const MINOR: f64 = 0.1;
@@ -212,7 +214,7 @@ impl Neighbourhood {
             // An even number, as a multiplier near -1 changes the sign at every return.
             let third = 2 * ((0.5 * seen / rate).ceil() as usize).max(WINDOW.0 / 4);
             let periods = 3.0 * period as f64 / rate;
-            if 3 * third > held.min(WINDOW.1) {
+            if *size > NEAR * gap || 3 * third > held.min(WINDOW.1) {
                 return Relation::Approaching { periods };
             }
             let logs: Vec<f64> =
