@@ -70,11 +70,17 @@ fn forced(device: &ReducedSystem, omega: f64, beta: f64, steps: u32) -> Fallible
             [a, b] => b * 2.0 - a,
             _ => states[0].clone(),
         };
-        for _ in 0..4 {
+        for iteration in 0.. {
             let (image, derivative) = runge_kutta(&system, &state);
             let defect = image - &state;
-            state += (DMatrix::identity(n, n) - &derivative).lu().solve(&defect).ok_or("a singular map")?;
+            let change =
+                (DMatrix::identity(n, n) - &derivative).lu().solve(&defect).ok_or("a singular map")?;
+            state += &change;
             matrix = derivative;
+            if change.amax() < 1e-9 {
+                break;
+            }
+            assert!(iteration < 20, "omega {omega}, beta {beta}: {change}");
         }
         states.push(state);
     }
@@ -185,12 +191,9 @@ fn windows_far_narrower_than_a_step_are_found() -> TestResult {
             }
             // Between two of the fine march's points.
             (Some(beta), None) => {
-                hold(&device, omega, beta * (1.0 + 2e-6), Instability::NeimarkSacker, 40).or(Ok::<
-                    (),
-                    Box<dyn std::error::Error>,
-                >(
-                    ()
-                ))?;
+                let within = forced(&device, omega, beta * (1.0 + 1e-6), 40)?;
+                assert!(largest(&within, Instability::NeimarkSacker) > 1.0, "{omega} {beta}: {within:?}");
+                narrowest = narrowest.min(2e-5);
             }
             (None, first) => assert_eq!(first, None, "{omega}"),
         }
@@ -247,14 +250,14 @@ fn the_end_of_the_forced_motion_is_told() -> TestResult {
     assert_eq!((&found["beta"], &first["kind"]), (&json!([null]), &json!("fold")));
     assert_eq!(&first["beta"], ends);
     let beta = ends.as_f64().ok_or("an end")?;
-    // Just below, the distance of the multiplier from 1 falls with the square root of that from the fold.
+    // Just below, the product of all distances of multipliers from 1 falls with the square root of that from the fold.
     let device = low_damping(ForceLaw::Quadratic)?;
-    let distance = |part: f64| -> Fallible<f64> {
-        let multipliers = forced(&device, 21.3, beta * (1.0 - part), 60)?;
-        Ok(1.0 - largest(&multipliers, Instability::Fold))
+    let product = |part: f64| -> Fallible<f64> {
+        let multipliers = forced(&device, 21.3, beta * (1.0 - part), 200)?;
+        Ok(multipliers.iter().map(|mu| 1.0 - mu).product::<Complex<f64>>().re)
     };
-    let (far, close) = (distance(4e-5)?, distance(1e-5)?);
-    assert!((far / close - 2.0).abs() < 0.02, "{far} {close}");
+    let (far, close) = (product(4e-5)?, product(1e-5)?);
+    assert!((far / close - 2.0).abs() < 0.01, "{far} {close}");
     // Beyond there is no forced motion to be found, which is what the task orbit says.
     let request =
         json!({"task": "orbit", "parameters": {"alpha": 1e-4, "omega": 21.3, "beta": 0.02}}).to_string();
@@ -281,7 +284,7 @@ fn verdict_tongue_and_boundary_have_one_march() -> TestResult {
     }
     let tongue = trace_tongue(&device, Resonance::First, Default::default())?.ok_or("a tongue")?;
     for point in tongue.points.iter().step_by(9) {
-        let found = resonance_boundary(&device, point.omega, 0.04, Resonance::First)?;
+        let found = resonance_boundary(&device, point.omega, 0.05, Resonance::First)?;
         let beta = found.beta.ok_or("a boundary")?;
         assert!((beta / point.beta - 1.0).abs() < 1e-5, "{point:?}: {beta}");
     }

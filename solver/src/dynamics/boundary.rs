@@ -351,18 +351,16 @@ impl Survey {
     }
 }
 
-/// Where a multiplier that runs towards 1 arrives, close beyond the last station: its distance from 1 falls with the
-/// square root of that from the fold.
+/// Where the test for folds vanishes, close beyond the last station, when a multiplier is close to 1: it falls with the
+/// square root of the distance from the fold.
 fn fold_beyond(stations: &[Station]) -> Option<f64> {
     let [.., before, last] = stations else { return None };
-    let distance = |station: &Station| {
-        let real = station.forced.multipliers.iter().filter(|mu| Instability::of(**mu) == Instability::Fold);
-        real.map(|mu| (1.0 - mu.re).abs()).fold(f64::INFINITY, f64::min)
-    };
-    let (a, b) = (distance(before).powi(2), distance(last).powi(2));
+    let square = |station: &Station| Instability::Fold.test(&station.forced.multipliers).powi(2);
+    let (a, b) = (square(before), square(last));
     let width = last.beta() - before.beta();
     let ahead = width * b / (a - b);
-    (b < AT_FOLD * AT_FOLD && b < a && ahead < FOLD_REACH * width).then(|| last.beta() + ahead)
+    let near = last.critical(Instability::Fold).is_some_and(|mu| (mu - 1.0).norm() < AT_FOLD);
+    (near && b < a && ahead < FOLD_REACH * width).then(|| last.beta() + ahead)
 }
 
 /// Sets further stations where one of the first `smooth` tests dips towards zero between two of `stations`.
@@ -461,4 +459,28 @@ fn locate(
     Ok(multiplier
         .filter(|mu| Instability::of(*mu) == kind)
         .map(|multiplier| (Loss { beta: last.beta(), instability: kind, multiplier }, last.forced)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dip_is_where_a_parabola_falls_far_below_its_neighbours() {
+        let at = |function: fn(f64) -> f64, places: [f64; 3]| dip(places.map(|x| (x, function(x))));
+        let near = |found: Option<(usize, f64)>, side: usize, place: f64| {
+            found.is_some_and(|(where_, beta)| where_ == side && (beta - place).abs() < 1e-12)
+        };
+        // Below zero, behind and before the middle, and turned over.
+        assert!(near(at(|x| (x - 2.6).powi(2) - 0.1, [1.0, 2.0, 3.5]), 1, 2.6));
+        assert!(near(at(|x| (x - 1.4).powi(2) - 0.1, [1.0, 2.0, 3.5]), 0, 1.4));
+        assert!(near(at(|x| 0.1 - (x - 2.6).powi(2), [1.0, 2.0, 3.5]), 1, 2.6));
+        // Hardly lower than a station, beyond the stations, a hump, on a side with a change of sign, at negative beta.
+        assert_eq!(at(|x| (x - 2.6).powi(2) + 1.0, [1.0, 2.0, 3.5]), None);
+        assert_eq!(at(|x| (x - 5.0).powi(2), [1.0, 2.0, 3.5]), None);
+        assert_eq!(at(|x| 3.0 - (x - 2.6).powi(2), [1.0, 2.0, 3.5]), None);
+        assert_eq!(at(|x| (x - 2.1).powi(2) - 1.0, [1.0, 2.0, 3.0]), None);
+        assert_eq!(at(|x| (x + 0.4).powi(2) - 0.1, [-1.0, 0.0, 1.0]), None);
+        assert_eq!(at(|x| x, [0.0, 1.0, 2.0]), None);
+    }
 }
