@@ -9,7 +9,7 @@
 //!
 //! What can still be missed: a window within a dip so sharp that no parabola through three stations foresees it (the
 //! multipliers move by less than 0.2 from one to the next), or narrower than a ten-millionth of its beta; a third
-//! crossing between two stations with one; two folds so close that the motion goes on beyond them as before; and, where
+//! crossing between two stations with one; just below a boundary, in the same step, a window of another kind; two folds so close that the motion goes on beyond them as before; and, where
 //! nothing dissipates, a window of complex multipliers between two stations, because the test for these then
 //! vanishes and only the moduli at the stations are left to look at.
 
@@ -123,7 +123,10 @@ pub fn critical_excitation(
 /// The lowest beta up to `limit` at which the forced motion of `system` at frequency `omega` is unstable by `resonance`,
 /// and the first loss of stability of any kind on the way. The beta and omega of the system itself are not used.
 ///
-/// A loss of stability is the resonance's when it is of its kind and `omega` is the resonance's: see [`is_nearest`].
+/// A loss of stability is the resonance's when it is of its kind and when the resonance's centre O_i + O_j is the nearest
+/// to `omega` of all that lead to this kind: 2 O_k and 2 O_k / 3 of every mode to a doubling, O_k + O_l and
+/// (O_k + O_l) / 2 of every two modes to a complex pair. Only the linear frequencies are asked: in a strong motion, at a
+/// resonance of higher order, another mode than the resonance's may be the one that begins to swing.
 ///
 /// # Errors
 /// As [`critical_excitation`].
@@ -140,13 +143,8 @@ pub fn resonance_boundary(
     Ok(ResonanceBoundary { beta: found.map(|(loss, _)| loss.beta), first, ends })
 }
 
-/// Whether the centre O_i + O_j of `resonance` is the nearest to `omega` of all at which the forced motion of `system`
-/// can lose its stability in the resonance's way: 2 O_k and 2 O_k / 3 of every mode for a doubling, O_k + O_l and
-/// (O_k + O_l) / 2 of every two modes for a complex pair.
-///
-/// The linear frequencies are all that is asked: not those of a strong motion, and no higher orders, which are narrow
-/// and, as 2 O_k / 5, 2 O_k / 7, .., of many modes, everywhere. The mode that a strong motion sets swinging at a
-/// resonance of higher order can therefore be another than the resonance's.
+/// Whether the centre of `resonance` is the nearest to `omega`, as [`resonance_boundary`] has it. Higher orders, 2 O_k / 5,
+/// 2 O_k / 7, .., are narrow, and of many modes together everywhere.
 fn is_nearest(system: &ReducedSystem, omega: f64, resonance: Resonance) -> bool {
     let beam: Vec<f64> = system.modes.iter().map(|mode| mode.omega).collect();
     // With the circuit, where it leaves every mode its oscillation.
