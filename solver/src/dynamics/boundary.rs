@@ -9,9 +9,10 @@
 //!
 //! What can still be missed: a window within a dip so sharp that no parabola through three stations foresees it (the
 //! multipliers move by less than 0.2 from one to the next), or narrower than a ten-millionth of its beta; a third
-//! crossing between two stations with one; just below a boundary, in the same step, a window of another kind; two folds so close that the motion goes on beyond them as before; and, where
-//! nothing dissipates, a window of complex multipliers between two stations, because the test for these then
-//! vanishes and only the moduli at the stations are left to look at.
+//! crossing between two stations with one; just below a boundary, in the same step, a window of another kind; two folds
+//! so close that the motion goes on beyond them as before; and, where nothing dissipates, a window of complex
+//! multipliers between two stations, because the test for these then vanishes and only the moduli at the stations are
+//! left to look at.
 
 use nalgebra::Complex;
 
