@@ -1,13 +1,10 @@
 //! The forced motion, the one that grows out of rest as beta grows from 0, at a system's own excitation: its orbit, its
 //! multipliers, and the beta from which it is unstable.
 
-use super::boundary::{CriticalExcitation, search};
+use super::boundary::{Asked, CriticalExcitation, Survey};
 use super::newton::OrbitSolver;
 use super::{Orbit, OrbitError};
 use crate::model::ReducedSystem;
-
-/// The march beyond the loss of stability gives up below this fraction of the whole.
-const SHORTEST: f64 = 1e-5;
 
 /// The forced motion of a system.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,19 +25,13 @@ impl ForcedMotion {
     pub fn of(system: &ReducedSystem) -> Result<Self, OrbitError> {
         let beta = system.parameters.beta;
         let mut solver = OrbitSolver::new(system);
-        let (critical, mut here) = search(&mut solver, beta, None)?;
-        if matches!(critical, CriticalExcitation::Ends { .. }) {
-            return Ok(Self { critical, orbit: None });
-        }
-        let (mut step, shortest) = (beta - here.beta, SHORTEST * beta);
-        while here.beta < beta {
-            match here.move_to(&mut solver, (here.beta + step).min(beta)) {
-                Ok(next) => here = next,
-                Err(_) if step > shortest => step *= 0.5,
-                Err(_) => return Ok(Self { critical, orbit: None }),
-            }
-        }
-        let orbit = Orbit::find(system, Some(&here.state), 1)?;
-        Ok(Self { critical, orbit: Some(orbit) })
+        let survey = Survey::of(&mut solver, beta, Asked::Any)?;
+        let critical = survey.critical();
+        let there = match critical {
+            CriticalExcitation::Ends { .. } => None,
+            _ => survey.last.march_to(&mut solver, beta)?,
+        };
+        let orbit = there.map(|there| Orbit::read_at(system, &mut solver, &there.state)).transpose()?;
+        Ok(Self { critical, orbit })
     }
 }

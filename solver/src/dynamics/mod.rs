@@ -32,6 +32,7 @@ pub mod forced;
 mod inquiry;
 pub mod linear;
 pub mod lyapunov;
+mod march;
 mod meter;
 pub mod motion;
 pub mod newton;
@@ -61,7 +62,9 @@ pub mod voltage_spectrum;
 
 pub use attractors::settle::{Effort, Settler, reach};
 pub use balance::Balance;
-pub use boundary::{CriticalExcitation, critical_excitation, largest_multipliers};
+pub use boundary::{
+    CriticalExcitation, Loss, ResonanceBoundary, critical_excitation, largest_multipliers, resonance_boundary,
+};
 pub use branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course};
 pub use collocation::{Collocation, Settings};
 pub use continuation::{follow_branch, follow_doubled};

@@ -16,6 +16,10 @@ const SETTLED: f64 = 1e-10;
 /// Close to a fold corrections shrink no further than the rounding of the defect allows: iterations from which, and defect
 /// and correction below which, the orbit counts as found. Its state is then good to that correction only.
 const STALLED: (usize, f64, f64) = (12, 1e-11, 1e-6);
+/// The same for warm starts, which converge faster: the defect below which, and the ratio to the correction before above
+/// which, a correction no longer shrinks because the defect is rounding. With hardly any load the state's charge, which
+/// then hardly matters to anything else, is known no better.
+const WARM_STALLED: (f64, f64) = (1e-13, 0.1);
 /// How often a step that does not reduce the defect is halved.
 const MAX_HALVINGS: usize = 8;
 /// How often the grid is doubled for a guess that it cannot follow at all.
@@ -128,6 +132,7 @@ impl OrbitSolver {
     pub fn follow(&mut self, guess: &[f64], beta: f64, periods: usize) -> Result<Convergence, OrbitError> {
         self.begin(guess)?;
         let mut iterations = 0;
+        let mut before = f64::INFINITY;
         while iterations < MAX_WARM_ITERATIONS {
             iterations += 1;
             let error = self.evaluate(beta, periods)?;
@@ -138,9 +143,13 @@ impl OrbitSolver {
             }
             let correction = self.correction()?;
             self.add(&correction, 1.0);
-            if self.largest(&correction) <= SETTLED {
+            let size = self.largest(&correction);
+            let stalled =
+                self.residual <= WARM_STALLED.0 && size <= STALLED.2 && size > WARM_STALLED.1 * before;
+            if size <= SETTLED || stalled {
                 return Ok(Convergence { iterations, residual: self.residual });
             }
+            before = size;
         }
         Err(OrbitError::NoConvergence { iterations, residual: self.residual })
     }

@@ -7,7 +7,9 @@ use super::OrbitError;
 use super::collocation::Step;
 use super::extremes::{Highest, Scalar};
 use super::floquet::Instability;
+use super::march::Forced;
 use super::newton::{Convergence, OrbitSolver};
+use super::period_map::{MOST_PERIODS, scales};
 use super::propagator::Propagator;
 use super::tables::NODES;
 use crate::model::ReducedSystem;
@@ -62,22 +64,70 @@ pub struct Orbit {
 
 impl Orbit {
     /// The orbit of `periods` excitation periods of `system` under its own excitation and force law that Newton's
-    /// iteration reaches from `guess` (length 2N + 1), by default from the linear response at t = 0.
+    /// iteration reaches from `guess` (length 2N + 1); without one, the orbit of [`Self::from_rest`], whose period is
+    /// the excitation's.
     ///
-    /// From there it reaches the forced motion of the excitation's own period; orbits of longer period need a guess
-    /// near them, such as a state taken from a run.
+    /// Orbits of longer period need a guess near them, such as a state taken from a run. Where the iteration over all
+    /// `periods` fails, as it must over many periods of a motion that is strongly unstable over one, the shorter
+    /// periods of which they are multiples are tried, and the orbit nearest to the guess is taken.
     ///
     /// # Errors
-    /// As [`OrbitSolver::find`].
+    /// As [`OrbitSolver::find`] over `periods`, and as [`Self::from_rest`].
     pub fn find(system: &ReducedSystem, guess: Option<&[f64]>, periods: usize) -> Result<Self, OrbitError> {
-        let start = match guess {
-            Some(guess) => guess.to_vec(),
-            None => forced_motion(system),
-        };
+        if !(1..=MOST_PERIODS).contains(&periods) {
+            return Err(OrbitError::Periods { periods, most: MOST_PERIODS });
+        }
+        let Some(guess) = guess else { return Ok(Self::from_rest(system)?.0) };
         let beta = system.parameters.beta;
         let mut solver = OrbitSolver::new(system);
-        let convergence = solver.find(&start, beta, periods)?;
-        Self::read(system, &mut solver, convergence, beta, periods)
+        let reason = match solver.find(guess, beta, periods) {
+            Ok(convergence) => return Self::read(system, &mut solver, convergence, beta, periods),
+            Err(reason) => reason,
+        };
+        let mut nearest: Option<(f64, Self)> = None;
+        for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
+            let Ok(convergence) = solver.find(guess, beta, part) else { continue };
+            let components = solver.state().iter().zip(guess).zip(scales(system));
+            let distance = components.map(|((a, b), scale)| (a - b).abs() / scale).fold(0.0, f64::max);
+            if nearest.as_ref().is_none_or(|(other, _)| distance < *other)
+                && let Ok(orbit) = Self::read(system, &mut solver, convergence, beta, part)
+            {
+                nearest = Some((distance, orbit));
+            }
+        }
+        nearest.map(|(_, orbit)| orbit).ok_or(reason)
+    }
+
+    /// The forced motion of `system`, the one that grows out of rest as beta grows from 0 to its own, and `true`. Where
+    /// that ends below, at a fold or because it touches or escapes, the orbit that Newton's iteration reaches from the
+    /// linear response, and `false`.
+    ///
+    /// # Errors
+    /// [`OrbitError::MotionEnds`] where there is neither, [`OrbitError::Multipliers`].
+    pub fn from_rest(system: &ReducedSystem) -> Result<(Self, bool), OrbitError> {
+        let beta = system.parameters.beta;
+        let mut solver = OrbitSolver::new(system);
+        let forced = Forced::at_rest(&mut solver)?.march_to(&mut solver, beta)?;
+        if let Some(forced) = forced {
+            return Ok((Self::read_at(system, &mut solver, &forced.state)?, true));
+        }
+        let guess = linear_response(system);
+        let other = solver.find(&guess, beta, 1).map_err(|_| OrbitError::MotionEnds { beta })?;
+        Ok((Self::read(system, &mut solver, other, beta, 1)?, false))
+    }
+
+    /// The orbit of the excitation's own period at `state`, which is on it but for a last correction.
+    ///
+    /// # Errors
+    /// As [`OrbitSolver::find`] and [`Self::read`].
+    pub(super) fn read_at(
+        system: &ReducedSystem,
+        solver: &mut OrbitSolver,
+        state: &[f64],
+    ) -> Result<Self, OrbitError> {
+        let beta = system.parameters.beta;
+        let convergence = solver.find(state, beta, 1)?;
+        Self::read(system, solver, convergence, beta, 1)
     }
 
     /// Everything about the orbit of `periods` excitation periods that `solver` found last.
@@ -132,7 +182,7 @@ impl Orbit {
 }
 
 /// State of the linear response at t = 0, or rest where there is none.
-pub(super) fn forced_motion(system: &ReducedSystem) -> Vec<f64> {
+pub(super) fn linear_response(system: &ReducedSystem) -> Vec<f64> {
     LinearResponse::new(system).map_or_else(|_| vec![0.0; system.dimension()], |response| response.state(0.0))
 }
 

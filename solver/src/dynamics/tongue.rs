@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::OrbitError;
-use super::boundary::{CriticalExcitation, search};
+use super::boundary::{Asked, Survey};
 use super::curves::{Curve, CurveEnd, SpecialKind, Start, trace_curve};
 use super::floquet::Instability;
 use super::newton::OrbitSolver;
@@ -77,7 +77,8 @@ impl Tongue {
 /// Traces the tongue of `resonance` within `window` about its centre, the sum of the coupled modes' frequencies. The
 /// beta and omega of `system` itself are not used.
 ///
-/// `None` when the forced motion at the centre is not unstable in the resonance's way below the window's limit.
+/// `None` when the forced motion at the centre is not unstable by the resonance below the window's limit (see
+/// [`super::resonance_boundary`]).
 ///
 /// # Errors
 /// [`OrbitError::Theory`] where the coupled modes do not exist, [`OrbitError::Model`] when the centre or the window's
@@ -89,10 +90,10 @@ pub fn trace_tongue(
 ) -> Result<Option<Tongue>, OrbitError> {
     let centre = CoupledModes::new(system)?.frequency(resonance);
     let system = system.with_excitation(0.0, centre)?;
-    let kind = resonance.instability();
-    let (found, orbit) = search(&mut OrbitSolver::new(&system), window.limit, Some(kind))?;
-    let CriticalExcitation::Unstable { beta, .. } = found else { return Ok(None) };
-    let start = Start { kind, periods: 1, at: [centre, beta], state: orbit.state };
+    let asked = Asked::Kind(resonance.instability());
+    let survey = Survey::of(&mut OrbitSolver::new(&system), window.limit, asked)?;
+    let Some((loss, orbit)) = survey.found else { return Ok(None) };
+    let start = Start { kind: loss.instability, periods: 1, at: [centre, loss.beta], state: orbit.state };
     let (lowest, highest) = Parameter::Omega.range();
     let omegas = ((centre - window.span).max(lowest), (centre + window.span).min(highest));
     let plane = Plane::new([

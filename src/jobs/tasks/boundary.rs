@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Answer, count};
-use crate::dynamics::{OrbitError, critical_excitation};
+use crate::dynamics::{Instability, OrbitError, ResonanceBoundary, resonance_boundary};
 use crate::jobs::{RequestError, parallel};
 use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem};
 use crate::scenario::ModelChoice;
@@ -49,11 +49,29 @@ pub enum Theory {
     Floquet,
 }
 
-/// A boundary.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// A boundary. The further lists, one entry an omega like `beta`, are the theory of Floquet's.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct BoundaryAnswer {
     /// Lowest unstable beta at each omega (dimensionless); null where there is none.
     pub beta: Vec<Option<f64>>,
+    /// The first loss of stability of any kind and by any resonance, at or below `beta`, else below the limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first: Option<Vec<Option<FirstLoss>>>,
+    /// Where the forced motion ends before the resonance makes it unstable (dimensionless).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ends: Option<Vec<Option<f64>>>,
+    /// Why nothing is known at this omega.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failed: Option<Vec<Option<String>>>,
+}
+
+/// Where the forced motion first loses its stability, and how.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FirstLoss {
+    /// The excitation (dimensionless).
+    pub beta: f64,
+    /// The kind; at a fold the motion ends.
+    pub kind: Instability,
 }
 
 impl BoundaryRequest {
@@ -74,30 +92,39 @@ impl BoundaryRequest {
         ModelError::check("limit", self.limit, LIMITS, "")?;
         let system = self.model.system(self.parameters)?;
         let (omegas, resonance) = (self.omega.iter(), self.resonance);
-        let beta = match self.theory {
+        let closed = |beta| BoundaryAnswer { beta, ..Default::default() };
+        Ok(Answer::Boundary(match self.theory {
             Theory::Published => {
                 let theory = Published::new(&system)?;
-                omegas.map(|omega| theory.boundary(resonance, *omega)).collect()
+                closed(omegas.map(|omega| theory.boundary(resonance, *omega)).collect())
             }
             Theory::Coupled => {
                 let theory = CoupledModes::new(&system)?;
-                omegas.map(|omega| theory.boundary(resonance, *omega)).collect()
+                closed(omegas.map(|omega| theory.boundary(resonance, *omega)).collect())
             }
             Theory::Floquet => self.by_multipliers(&system)?,
-        };
-        Ok(Answer::Boundary(BoundaryAnswer { beta }))
+        }))
     }
 
-    /// Where the forced motion loses its stability in the way of the resonance; other ways are passed.
-    fn by_multipliers(&self, system: &ReducedSystem) -> Result<Vec<Option<f64>>, RequestError> {
+    /// Where the resonance makes the forced motion unstable; other losses of stability are passed. What fails at one
+    /// frequency is told there.
+    fn by_multipliers(&self, system: &ReducedSystem) -> Result<BoundaryAnswer, RequestError> {
         let (found, needed) = (system.modes.len(), self.resonance.pair().1 + 1);
         if found < needed {
             return Err(TheoryError::TooFewModes { found }.into());
         }
-        let only = Some(self.resonance.instability());
-        let found = parallel::map(&self.omega, |omega| {
-            critical_excitation(system, *omega, self.limit, only).map(|critical| critical.beta())
+        let found: Vec<Result<ResonanceBoundary, OrbitError>> = parallel::map(&self.omega, |omega| {
+            resonance_boundary(system, *omega, self.limit, self.resonance)
         });
-        Ok(found.into_iter().collect::<Result<_, OrbitError>>()?)
+        let known = || found.iter().map(|boundary| boundary.as_ref().ok());
+        let first = |boundary: &ResonanceBoundary| {
+            boundary.first.map(|loss| FirstLoss { beta: loss.beta, kind: loss.instability })
+        };
+        Ok(BoundaryAnswer {
+            beta: known().map(|boundary| boundary?.beta).collect(),
+            first: Some(known().map(|boundary| first(boundary?)).collect()),
+            ends: Some(known().map(|boundary| boundary?.ends).collect()),
+            failed: Some(found.iter().map(|boundary| Some(boundary.as_ref().err()?.to_string())).collect()),
+        })
     }
 }

@@ -17,9 +17,10 @@ pub struct OrbitRequest {
     pub parameters: ParameterSet,
     /// Modes and force law.
     pub model: ModelChoice,
-    /// State at t = 0 (length 2N + 1) from which Newton's iteration starts; the linear response when absent.
+    /// State at t = 0 (length 2N + 1) from which Newton's iteration starts; when absent, the forced motion is followed
+    /// from rest.
     pub guess: Option<Vec<f64>>,
-    /// Its period, in excitation periods.
+    /// Its period, in excitation periods, or a multiple of it.
     pub periods: usize,
 }
 
@@ -36,6 +37,9 @@ pub struct OrbitAnswer {
     pub state: Vec<f64>,
     /// Its shortest period, in excitation periods: a divisor of what was asked for.
     pub periods: usize,
+    /// Without a guess, whether it is the motion that grows out of rest with beta; where that ends below, it is what
+    /// Newton's iteration reaches from the linear response. Null with a guess.
+    pub forced: Option<bool>,
     /// Floquet multipliers [re, im] over that period by descending modulus.
     pub multipliers: Vec<[f64; 2]>,
     /// Whether all of them are inside the unit circle.
@@ -58,15 +62,22 @@ impl OrbitRequest {
     /// Computes the answer.
     ///
     /// # Errors
-    /// [`RequestError`] when a number is out of range or Newton's iteration finds no periodic motion.
+    /// [`RequestError`] when a number is out of range or no periodic motion is found.
     pub fn answer(&self) -> Result<Answer, RequestError> {
         count("periods", self.periods, (1, MOST_PERIODS))?;
         let system = self.model.system(self.parameters)?;
         state("guess", self.guess.as_ref(), system.dimension())?;
-        let orbit = Orbit::find(&system, self.guess.as_deref(), self.periods)?;
+        let (orbit, forced) = match &self.guess {
+            Some(guess) => (Orbit::find(&system, Some(guess), self.periods)?, None),
+            None => {
+                let (orbit, forced) = Orbit::from_rest(&system)?;
+                (orbit, Some(forced))
+            }
+        };
         let (stable, instability) = (orbit.stable(), orbit.instability());
         Ok(Answer::Orbit(OrbitAnswer {
             periods: orbit.periods,
+            forced,
             multipliers: orbit.multipliers.iter().map(|mu| [mu.re, mu.im]).collect(),
             stable,
             instability,

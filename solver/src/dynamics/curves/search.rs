@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::curve::{Curve, SpecialKind, SpecialPoint, Start};
 use super::known::KnownCurves;
 use super::tracer::trace_curve;
-use crate::dynamics::boundary::Forced;
+use crate::dynamics::march::Forced;
 use crate::dynamics::plane::{Axis, Plane};
 use crate::dynamics::{Branch, Course, Instability, OrbitError, OrbitSolver, follow_branch, follow_doubled};
 use crate::model::{Parameter, ReducedSystem, Shaking};
