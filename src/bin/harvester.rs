@@ -7,7 +7,7 @@ use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::process::ExitCode;
 
 use harvester_lab::jobs::batch::{BatchError, answer_lines};
-use harvester_lab::jobs::solve;
+use harvester_lab::jobs::{input, solve};
 
 const USAGE: &str = "usage: harvester < request.json > answer.json
        harvester --batch < requests.jsonl > answers.jsonl
@@ -57,11 +57,15 @@ fn mode() -> Result<Mode, lexopt::Error> {
 }
 
 fn single() -> ExitCode {
-    let mut request = String::new();
-    if let Err(error) = io::stdin().read_to_string(&mut request) {
+    let mut bytes = Vec::new();
+    if let Err(error) = io::stdin().read_to_end(&mut bytes) {
         return fail(&format!("the request cannot be read: {error}"));
     }
-    match solve(&request) {
+    let request = match input::text(&bytes) {
+        Ok(request) => request,
+        Err(problem) => return fail(&format!("the request is {problem}")),
+    };
+    match solve(request) {
         Ok(answer) => say(&answer),
         Err(message) => fail(&message),
     }

@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Read, Write};
 
 use thiserror::Error;
 
-use super::{parallel, solve};
+use super::{input, parallel, solve};
 
 /// Lines read before any is answered, for each core: enough to keep all busy, few enough to hold in memory.
 const PER_CORE: usize = 8;
@@ -44,12 +44,12 @@ pub fn answer_lines(mut requests: impl BufRead, mut answers: impl Write) -> Resu
 }
 
 /// A request, or why the line is none.
-type Line = Result<String, &'static str>;
+type Line = Result<String, String>;
 
 fn answer_line(line: &Line) -> String {
     let answer = match line {
         Ok(request) => solve(request),
-        Err(problem) => Err((*problem).to_owned()),
+        Err(problem) => Err(problem.clone()),
     };
     answer.unwrap_or_else(|message| serde_json::json!({ "error": message }).to_string())
 }
@@ -76,13 +76,13 @@ fn read_line(requests: &mut impl BufRead) -> io::Result<Option<Line>> {
     }
     if length == LONGEST && line.last() != Some(&b'\n') {
         requests.skip_until(b'\n')?;
-        return Ok(Some(Err("the line is longer than 16 MiB")));
+        return Ok(Some(Err("the line is longer than 16 MiB".to_owned())));
     }
-    Ok(Some(match String::from_utf8(line) {
-        Ok(text) if text.trim().is_empty() => Err("the line is empty"),
+    Ok(Some(match input::text(&line) {
+        Ok(text) if text.trim().is_empty() => Err("the line is empty".to_owned()),
         // Without its end, so that a message counts lines as for a single request.
         Ok(text) => Ok(text.trim_end().to_owned()),
-        Err(_) => Err("the line is not UTF-8 text"),
+        Err(problem) => Err(format!("the line is {problem}")),
     }))
 }
 
@@ -116,11 +116,11 @@ mod tests {
 
     #[test]
     fn lines_that_are_no_text_or_endless_are_answered_too() {
-        let mut requests = b"\xff\xfe\n".to_vec();
+        let mut requests = b"\xef\xbb\xbf{\"task\":\"modes\"}\n\xfc\n\xff\xfe{\0\n\0}\0\n".to_vec();
         requests.extend(std::iter::repeat_n(b' ', LONGEST + 5));
         requests.extend(b"\n\n{\"task\":\"modes\"}");
         let found = answers(&requests);
-        let parts = ["not UTF-8", "16 MiB", "empty", "A_e"];
+        let parts = ["A_e", "not UTF-8", "UTF-16", "UTF-16", "16 MiB", "empty", "A_e"];
         assert_eq!(found.len(), parts.len());
         assert!(found.iter().zip(parts).all(|(answer, part)| answer.contains(part)), "{found:?}");
         assert!(answers(b"").is_empty());

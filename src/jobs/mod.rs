@@ -4,6 +4,7 @@
 pub mod batch;
 pub mod design;
 pub mod foreman;
+pub mod input;
 pub mod inspection;
 pub mod motions;
 pub mod request;
@@ -23,7 +24,8 @@ pub use run::{Run, RunJob};
 /// # Errors
 /// One line that names the field, the value and the allowed range.
 pub fn solve(json: &str) -> Result<String, String> {
-    let answer =
-        Request::parse(json).and_then(|request| request.answer()).map_err(|error| error.to_string())?;
+    let answer = Request::parse(json).and_then(|request| request.answer());
+    // Names in the message may hold what is in the request.
+    let answer = answer.map_err(|error| error.to_string().replace(char::is_control, " "))?;
     serde_json::to_string(&answer).map_err(|error| error.to_string())
 }

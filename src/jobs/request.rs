@@ -5,11 +5,13 @@ use serde_json::Value;
 use thiserror::Error;
 
 use super::design::DesignError;
+use super::input::{self, FieldError, JsonError, cut};
 use super::tasks::Answer;
 use super::tasks::basin::BasinRequest;
 use super::tasks::boundary::BoundaryRequest;
 use super::tasks::chart::ChartRequest;
 use super::tasks::design::DesignRequest;
+use super::tasks::device::Described;
 use super::tasks::modes::ModesRequest;
 use super::tasks::orbit::OrbitRequest;
 use super::tasks::simulate::SimulateRequest;
@@ -23,9 +25,12 @@ use crate::theory::TheoryError;
 /// Why a request has no answer; each is one line.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RequestError {
-    /// The text is not JSON.
-    #[error("the request is not valid JSON: {0}")]
-    Json(String),
+    /// The text is not JSON, or not such as a request is.
+    #[error("the request: {0}")]
+    Json(#[from] JsonError),
+    /// The JSON is another value than an object.
+    #[error("the request must be an object such as {{\"task\":\"modes\"}}")]
+    NoObject,
     /// The task is missing or unknown.
     #[error("task = {0} is not available: allowed are {TASKS}")]
     Task(String),
@@ -114,14 +119,17 @@ impl Request {
     /// # Errors
     /// [`RequestError`] for the first thing that is wrong.
     pub fn parse(json: &str) -> Result<Self, RequestError> {
-        let value: Value =
-            serde_json::from_str(json).map_err(|error| RequestError::Json(error.to_string()))?;
-        let Value::Object(mut fields) = value else {
-            return Err(RequestError::Json("expected an object such as {\"task\":\"modes\"}".into()));
+        let Value::Object(mut fields) = input::json(json)? else {
+            return Err(RequestError::NoObject);
         };
         let task = fields.remove("task").unwrap_or(Value::Null);
-        if let Some(request) = DesignRequest::read(task.as_str().unwrap_or_default(), &fields)? {
+        let device = Described::take(&mut fields)?;
+        if let Some(request) = DesignRequest::read(task.as_str().unwrap_or_default(), device, &fields)? {
             return Ok(Self::Design(Box::new(request)));
+        }
+        if device != Described::default() {
+            let numbers = serde_json::to_value(device.numbers()?).unwrap_or_default();
+            fields.insert("parameters".to_owned(), numbers);
         }
         let fields = Value::Object(fields);
         match task.as_str() {
@@ -133,7 +141,7 @@ impl Request {
             Some("sweep") => Ok(Self::Sweep(read(fields)?)),
             Some("verdict") => Ok(Self::Verdict(read(fields)?)),
             Some("basin") => Ok(Self::Basin(read(fields)?)),
-            _ => Err(RequestError::Task(task.to_string())),
+            _ => Err(RequestError::Task(cut(&task.to_string()))),
         }
     }
 
@@ -158,11 +166,10 @@ impl Request {
 
 /// Deserialises with the path of the field in the error, and the allowed range where the field has one.
 pub(super) fn read<T: DeserializeOwned>(value: Value) -> Result<T, RequestError> {
-    serde_path_to_error::deserialize(value).map_err(|error| {
-        let path = error.path().to_string();
+    input::fields(value).map_err(|FieldError { path, problem }| {
         let problem = match range(&path) {
-            Some((low, high)) => format!("{}: allowed are {low} to {high}", error.inner()),
-            None => error.inner().to_string(),
+            Some((low, high)) => format!("{problem}: allowed are {low} to {high}"),
+            None => problem,
         };
         RequestError::Field { field: if path == "." { "request".into() } else { path }, problem }
     })

@@ -12,6 +12,7 @@ use crate::jobs::design::{Bounds, HarvestPoint, Interval, Operating, Plant, oper
 use crate::jobs::study::complete;
 use crate::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
 use crate::jobs::study::sweep::Direction;
+use crate::jobs::tasks::device::ACCELERATION_UNIT;
 use crate::model::{Limits, ModelError, Shaking};
 use crate::scenario::Scenario;
 
@@ -63,6 +64,8 @@ impl Hertz {
 /// What the device harvests.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HarvestAnswer {
+    /// What the acceleration counts in.
+    pub acceleration_unit: &'static str,
     /// At its own excitation.
     #[serde(flatten)]
     pub operating: Operating,
@@ -127,7 +130,7 @@ impl HarvestTask {
         self.limits.validate()?;
         let operating = operating(&scenario)?;
         let curves = self.frequency.map(|frequency| self.curves(scenario, frequency)).transpose()?;
-        Ok(HarvestAnswer { operating, curves })
+        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, curves })
     }
 
     fn curves(&self, scenario: Scenario, frequency: Hertz) -> Result<Curves, RequestError> {

@@ -7,6 +7,7 @@ use crate::jobs::RequestError;
 use crate::jobs::design::materials::MaterialRow;
 use crate::jobs::study::complete;
 use crate::jobs::study::table::Table;
+use crate::jobs::tasks::device::ACCELERATION_UNIT;
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
@@ -31,6 +32,8 @@ impl Default for MaterialsTask {
 /// The ceramics side by side.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MaterialsAnswer {
+    /// What the accelerations of the thresholds count in.
+    pub acceleration_unit: &'static str,
     /// One a row of Table 2.
     pub rows: Vec<NamedRow>,
 }
@@ -63,6 +66,7 @@ impl MaterialsTask {
                 row,
             })
         });
-        Ok(MaterialsAnswer { rows: rows.collect::<Result<_, RequestError>>()? })
+        let rows = rows.collect::<Result<_, RequestError>>()?;
+        Ok(MaterialsAnswer { acceleration_unit: ACCELERATION_UNIT, rows })
     }
 }
