@@ -1,7 +1,9 @@
 //! Questions and answers: one request type for the native command, JavaScript and the page, and the sliced run
 //! behind the page's plots.
 
+#[cfg(not(target_arch = "wasm32"))]
 pub mod batch;
+pub mod budget;
 pub mod design;
 pub mod foreman;
 pub mod input;
@@ -16,7 +18,9 @@ pub mod work;
 
 mod parallel;
 
-pub use request::{Request, RequestError};
+use budget::Budget;
+
+pub use request::{Asked, Request, RequestError};
 pub use run::{Run, RunJob};
 
 /// Answers one JSON request with one JSON object; the format is described in the README.
@@ -24,7 +28,15 @@ pub use run::{Run, RunJob};
 /// # Errors
 /// One line that names the field, the value and the allowed range.
 pub fn solve(json: &str) -> Result<String, String> {
-    let answer = Request::parse(json).and_then(|request| request.answer());
+    solve_within(json, Budget::default())
+}
+
+/// The same within what `budget` leaves of the request's own, and telling how far it is.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_within(json: &str, budget: Budget<'_>) -> Result<String, String> {
+    let answer = Request::parse(json).and_then(|asked| asked.answer(budget));
     // Names in the message may hold what is in the request.
     let answer = answer.map_err(|error| error.to_string().replace(char::is_control, " "))?;
     serde_json::to_string(&answer).map_err(|error| error.to_string())

@@ -1,9 +1,11 @@
 //! The requests: what may be asked.
 
 use serde::de::DeserializeOwned;
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use thiserror::Error;
 
+use super::budget::Budget;
 use super::design::DesignError;
 use super::input::{self, FieldError, JsonError, cut};
 use super::tasks::Answer;
@@ -90,6 +92,38 @@ pub enum RequestError {
 const TASKS: &str = "\"modes\", \"boundary\", \"simulate\", \"orbit\", \"chart\", \"sweep\", \"verdict\", \
                      \"basin\", \"harvest\", \"load\", \"materials\", \"limits\", \"trust\", \"find\", \"map\"";
 
+/// A request with what it may cost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Asked {
+    /// The question.
+    pub request: Request,
+    /// Computing time (s, summed over all cores) after which the answer has what there is.
+    pub budget: f64,
+}
+
+/// An answer, and what it lacks.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Whole {
+    /// What was asked for.
+    #[serde(flatten)]
+    pub answer: Answer,
+    /// What of it is missing, and why; absent when it is whole.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub missing: Option<String>,
+}
+
+impl Asked {
+    /// Computes the answer, within `budget` and the request's own.
+    ///
+    /// # Errors
+    /// [`RequestError`] when a number is out of range or the question has no answer.
+    pub fn answer(&self, budget: Budget<'_>) -> Result<Whole, RequestError> {
+        let budget = budget.of(self.budget);
+        let answer = self.request.answer(&budget)?;
+        Ok(Whole { answer, missing: budget.missing() })
+    }
+}
+
 /// A checked question.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Request {
@@ -118,12 +152,20 @@ impl Request {
     ///
     /// # Errors
     /// [`RequestError`] for the first thing that is wrong.
-    pub fn parse(json: &str) -> Result<Self, RequestError> {
+    pub fn parse(json: &str) -> Result<Asked, RequestError> {
         let Value::Object(mut fields) = input::json(json)? else {
             return Err(RequestError::NoObject);
         };
         let task = fields.remove("task").unwrap_or(Value::Null);
+        let budget =
+            fields.remove_entry("budget").map(|own| read::<Own>(Value::Object([own].into_iter().collect())));
+        let budget = budget.transpose()?.map_or(Budget::USUAL, |own| own.budget);
+        ModelError::check("budget", budget, Budget::RANGE, " s")?;
         let device = Described::take(&mut fields)?;
+        Ok(Asked { request: Self::of(&task, device, fields)?, budget })
+    }
+
+    fn of(task: &Value, device: Described, mut fields: Map<String, Value>) -> Result<Self, RequestError> {
         if let Some(request) = DesignRequest::read(task.as_str().unwrap_or_default(), device, &fields)? {
             return Ok(Self::Design(Box::new(request)));
         }
@@ -145,23 +187,29 @@ impl Request {
         }
     }
 
-    /// Computes the answer.
+    /// Computes the answer, as far as `budget` goes. Tasks without pieces have a counted one of their own.
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range or the question has no answer.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         match self {
             Self::Modes(request) => request.answer(),
-            Self::Boundary(request) => request.answer(),
-            Self::Simulate(request) => request.answer(),
+            Self::Boundary(request) => request.answer(budget),
+            Self::Simulate(request) => request.answer(budget),
             Self::Orbit(request) => request.answer(),
-            Self::Chart(request) => request.answer(),
-            Self::Sweep(request) => request.answer(),
+            Self::Chart(request) => request.answer(budget),
+            Self::Sweep(request) => request.answer(budget),
             Self::Verdict(request) => request.answer(),
-            Self::Basin(request) => request.answer(),
-            Self::Design(request) => request.answer(),
+            Self::Basin(request) => request.answer(budget),
+            Self::Design(request) => request.answer(budget),
         }
     }
+}
+
+/// What every request may say of itself.
+#[derive(Debug, Clone, Copy, Deserialize)]
+struct Own {
+    budget: f64,
 }
 
 /// Deserialises with the path of the field in the error, and the allowed range where the field has one.

@@ -81,7 +81,6 @@ fn kind(needed: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::jobs::input::fields;
     use serde::Deserialize;
     use serde_json::{Value, json};
@@ -107,6 +106,7 @@ mod tests {
         _inner: Option<Box<Inner>>,
     }
 
+    #[allow(dead_code, reason = "what is read here is of no interest")]
     #[derive(Debug, Default, Deserialize)]
     #[serde(rename_all = "lowercase")]
     enum Word {

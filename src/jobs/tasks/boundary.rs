@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Answer, count};
 use crate::dynamics::{OrbitError, critical_excitation};
-use crate::jobs::{RequestError, parallel};
+use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem};
 use crate::scenario::ModelChoice;
 use crate::theory::{CoupledModes, Published, Resonance, TheoryError};
@@ -65,7 +66,7 @@ impl BoundaryRequest {
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range or a theory has no answer.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         let most = if self.theory == Theory::Floquet { MOST_FLOQUET } else { MOST_CLOSED };
         count("numbers in omega", self.omega.len(), (0, most))?;
         for omega in &self.omega {
@@ -83,21 +84,26 @@ impl BoundaryRequest {
                 let theory = CoupledModes::new(&system)?;
                 omegas.map(|omega| theory.boundary(resonance, *omega)).collect()
             }
-            Theory::Floquet => self.by_multipliers(&system)?,
+            Theory::Floquet => self.by_multipliers(&system, budget)?,
         };
         Ok(Answer::Boundary(BoundaryAnswer { beta }))
     }
 
     /// Where the forced motion loses its stability in the way of the resonance; other ways are passed.
-    fn by_multipliers(&self, system: &ReducedSystem) -> Result<Vec<Option<f64>>, RequestError> {
+    fn by_multipliers(
+        &self,
+        system: &ReducedSystem,
+        budget: &Budget<'_>,
+    ) -> Result<Vec<Option<f64>>, RequestError> {
         let (found, needed) = (system.modes.len(), self.resonance.pair().1 + 1);
         if found < needed {
             return Err(TheoryError::TooFewModes { found }.into());
         }
         let only = Some(self.resonance.instability());
-        let found = parallel::map(&self.omega, |omega| {
+        let found = budget.map(&self.omega, |omega| {
             critical_excitation(system, *omega, self.limit, only).map(|critical| critical.beta())
         });
-        Ok(found.into_iter().collect::<Result<_, OrbitError>>()?)
+        let found = found.into_iter().map(|found| found.transpose().map(Option::flatten));
+        Ok(found.collect::<Result<_, OrbitError>>()?)
     }
 }

@@ -6,6 +6,7 @@ use serde_json::{Map, Value};
 use super::Answer;
 use super::device::Described;
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::request::read;
 use crate::model::{Limits, ModelError};
 use crate::scenario::{ModelChoice, Scenario};
@@ -151,16 +152,16 @@ impl DesignRequest {
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range or the question has no answer.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         let scenario = self.subject.scenario()?;
         let answer = match &self.task {
-            Task::Harvest(task) => DesignAnswer::Harvest(Box::new(task.answer(scenario)?)),
-            Task::Load(task) => DesignAnswer::Load(task.answer(scenario)?),
-            Task::Materials(task) => DesignAnswer::Materials(task.answer(&scenario)?),
+            Task::Harvest(task) => DesignAnswer::Harvest(Box::new(task.answer(scenario, budget)?)),
+            Task::Load(task) => DesignAnswer::Load(task.answer(scenario, budget)?),
+            Task::Materials(task) => DesignAnswer::Materials(task.answer(&scenario, budget)?),
             Task::Limits(limits) => DesignAnswer::Limits(LimitsAnswer::new(*limits, &scenario)?),
-            Task::Trust(task) => DesignAnswer::Trust(task.answer(&scenario)?),
-            Task::Find(task) => DesignAnswer::Find(Box::new(task.answer(scenario)?)),
-            Task::Map(task) => DesignAnswer::Map(task.answer(scenario)?),
+            Task::Trust(task) => DesignAnswer::Trust(task.answer(&scenario, budget)?),
+            Task::Find(task) => DesignAnswer::Find(Box::new(task.answer(scenario, budget)?)),
+            Task::Map(task) => DesignAnswer::Map(task.answer(scenario, budget)?),
         };
         Ok(Answer::Design(answer))
     }
