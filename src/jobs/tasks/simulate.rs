@@ -192,6 +192,10 @@ impl SimulateRequest {
             }
             budget.report(done as f64 / last as f64);
         };
+        if end.is_none() {
+            t.push(run.time());
+            state.push(run.state().to_vec());
+        }
         let outcome = match end {
             None => UNFINISHED,
             Some(Outcome::Completed) => word(Outcome::Completed),
