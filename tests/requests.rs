@@ -221,3 +221,78 @@ fn acceleration_is_a_peak_in_units_of_one_standard_gravity() {
     assert!((given / peak - 1.0).abs() < 1e-9, "{given} {peak}");
     assert_eq!(answer["acceleration_unit"], "peak g of 9.80665 m/s^2");
 }
+
+fn answer(request: &str) -> Value {
+    read(&solve(request).unwrap_or_else(|message| panic!("{request}: {message}")))
+}
+
+#[test]
+fn a_spent_budget_leaves_out_what_was_not_begun_and_says_so() {
+    let request = r#"{"task":"chart","quantity":"motion","omega":{"from":8,"to":9,"count":40},"beta":{"from":0,"to":0.01,"count":40},"budget":0.05}"#;
+    let chart = answer(request);
+    let cells: Vec<&Value> =
+        chart["values"].as_array().into_iter().flatten().flat_map(|row| row.as_array()).flatten().collect();
+    assert_eq!(cells.len(), 1600);
+    assert!(cells.iter().any(|cell| cell.is_null()), "all was computed");
+    assert!(chart["missing"].as_str().is_some_and(|why| why.contains("0.05 s")), "{}", chart["missing"]);
+    let run = answer(r#"{"task":"simulate","method":"rk4","t_end":20000,"samples":5,"budget":0.05}"#);
+    assert_eq!((&run["outcome"], run["missing"].is_string()), (&json!("unfinished"), true));
+    assert!(run["t_outcome"].as_f64().is_some_and(|t| t > 0.0 && t < 20_000.0), "{run}");
+    assert_eq!(run["t"].as_array().and_then(|times| times.last()), Some(&run["t_outcome"]));
+    // Each task says something within the least budget, and all of it within the usual one.
+    for task in TASKS {
+        let mut fields = smallest(task);
+        fields.insert("budget".to_owned(), json!(0.001));
+        let short = solve(&Value::Object(fields.clone()).to_string());
+        assert!(
+            short.is_ok() || short.as_ref().is_err_and(|why| why.contains("no candidate")),
+            "{task}: {short:?}"
+        );
+    }
+    assert!(refused(r#"{"task":"modes","budget":0}"#).contains("budget = 0 is out of range"));
+    assert!(refused(r#"{"task":"modes","budget":"long"}"#).contains("budget: \"long\""));
+    assert!(answer(r#"{"task":"modes","budget":5}"#).get("missing").is_none());
+}
+
+#[test]
+fn numbers_too_small_to_matter_count_as_zero_and_take_no_time() {
+    let begin = std::time::Instant::now();
+    let ask = |beta: &str| {
+        answer(&format!(
+            r#"{{"task":"verdict","parameters":{{"kappa":0.01,"beta":{beta},"alpha":1.4e-4,"omega":8.0969}},"t_end":1}}"#
+        ))
+    };
+    assert_eq!(ask("5e-324"), ask("0"));
+    assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
+}
+
+#[test]
+fn branches_that_would_take_minutes_are_left_and_said_to_be() {
+    let load = answer(
+        r#"{"task":"load","parameters":{"c":0.01,"kappa":0.01,"beta":0.2,"alpha":0.00162,"omega":25.4047},"from":1e6,"to":1e7,"per_decade":1,"t_end":20,"window":{"from":0.0438,"to":64.99},"hold":"amplitude","model":{"modes":1,"force":"exact"},"acceleration":5.33,"scaling":"consistent"}"#,
+    );
+    let best = load["best_frequency"].as_array().expect("two loads");
+    assert!(best.len() == 2 && best.iter().all(|best| best["cut"] == true), "{load}");
+    assert!(load["missing"].as_str().is_some_and(|why| why.starts_with("under 2 of 2 loads")), "{load}");
+    // Usual ones are followed to their ends.
+    let load = answer(r#"{"task":"load","from":1e6,"to":1e7,"per_decade":1,"window":{"from":2.5,"to":3.1}}"#);
+    assert!(load.get("missing").is_none() && load["best_frequency"][0]["cut"] == false, "{load}");
+}
+
+#[test]
+fn steps_too_long_for_their_method_are_an_outcome_of_their_own() {
+    // Ten steps a period at omega = 25: the eighth mode turns by 14 radians in each, far beyond the 2 sqrt(2) that the
+    // method bears.
+    let request = r#"{"task":"simulate","method":"rk4","steps_per_period":10,"model":{"modes":8},"t_end":50,"samples":500}"#;
+    let run = answer(request);
+    assert_eq!(run["outcome"], "unstable_steps");
+    assert!(run["t_outcome"].as_f64().is_some_and(|t| t > 0.0 && t < 1.0), "{run}");
+    assert!(!run.to_string().contains("null"), "{run}");
+    let states = run["state"].as_array().expect("a list");
+    assert!(!states.is_empty() && states.len() == run["t"].as_array().map_or(0, Vec::len), "{run}");
+    // With steps short enough there is no such thing, and a true escape stays one.
+    let run = answer(&request.replace(r#""steps_per_period":10"#, r#""steps_per_period":1000"#));
+    assert_eq!(run["outcome"], "completed");
+    let escape = r#"{"task":"simulate","method":"rk4","parameters":{"alpha":1e-4,"beta":0.01,"omega":42.71248685},"t_end":5}"#;
+    assert_eq!(answer(escape)["outcome"], "escaped");
+}

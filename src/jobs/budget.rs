@@ -25,7 +25,7 @@ pub struct Budget<'a> {
 }
 
 impl<'a> Budget<'a> {
-    /// Computing time (s) of a request that names none.
+    /// Computing time (s) of a request that names none; the README says it, too.
     pub const USUAL: f64 = 900.0;
     /// Computing times (s) that can be asked for.
     pub const RANGE: (f64, f64) = (1e-3, 1e7);
