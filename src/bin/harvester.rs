@@ -7,10 +7,10 @@
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Read, Write};
 use std::process::ExitCode;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use harvester_lab::jobs::batch::{BatchError, Manner, answer_lines};
-use harvester_lab::jobs::budget::Budget;
+use harvester_lab::jobs::budget::{Budget, now};
 use harvester_lab::jobs::{input, solve_within};
 
 const USAGE: &str = "usage: harvester < request.json > answer.json
@@ -109,16 +109,16 @@ fn batch(timeout: Option<Duration>) -> ExitCode {
 /// The line on a terminal that says how far the command is; nothing elsewhere.
 struct Line {
     terminal: bool,
-    /// When it was written last, and whether ever.
-    written: Mutex<(Instant, bool)>,
+    /// When it was written last (s of the clock), and whether ever.
+    written: Mutex<(f64, bool)>,
 }
 
 impl Line {
-    /// Time between two writings, and before the first: what is quick needs none.
-    const PAUSE: Duration = Duration::from_millis(250);
+    /// Seconds between two writings, and before the first: what is quick needs none.
+    const PAUSE: f64 = 0.25;
 
     fn new() -> Self {
-        Self { terminal: io::stderr().is_terminal(), written: Mutex::new((Instant::now(), false)) }
+        Self { terminal: io::stderr().is_terminal(), written: Mutex::new((now(), false)) }
     }
 
     fn show(&self, text: impl FnOnce() -> String) {
@@ -126,9 +126,9 @@ impl Line {
             return;
         }
         if let Ok(mut written) = self.written.lock()
-            && written.0.elapsed() >= Self::PAUSE
+            && now() - written.0 >= Self::PAUSE
         {
-            *written = (Instant::now(), true);
+            *written = (now(), true);
             // A terminal that has gone is no reason to stop.
             let _ = write!(io::stderr(), "\r\x1b[K{}", text());
         }

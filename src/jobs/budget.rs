@@ -110,20 +110,20 @@ impl<'a> Budget<'a> {
 
 /// Seconds since some moment.
 #[cfg(not(target_arch = "wasm32"))]
-fn now() -> f64 {
+pub fn now() -> f64 {
     static START: std::sync::LazyLock<std::time::Instant> = std::sync::LazyLock::new(std::time::Instant::now);
     START.elapsed().as_secs_f64()
 }
 
 /// Seconds since some moment, in windows and workers.
 #[cfg(all(target_arch = "wasm32", feature = "app"))]
-fn now() -> f64 {
+pub fn now() -> f64 {
     1e-3 * js_sys::Date::now()
 }
 
 /// Without a clock nothing is ever spent.
 #[cfg(all(target_arch = "wasm32", not(feature = "app")))]
-fn now() -> f64 {
+pub fn now() -> f64 {
     0.0
 }
 

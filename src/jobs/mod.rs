@@ -1,7 +1,6 @@
 //! Questions and answers: one request type for the native command, JavaScript and the page, and the sliced run
 //! behind the page's plots.
 
-#[cfg(not(target_arch = "wasm32"))]
 pub mod batch;
 pub mod budget;
 pub mod design;

@@ -14,7 +14,9 @@ pub(super) fn map<T, R>(items: &[T], work: impl Fn(&T) -> R) -> Vec<R> {
 }
 
 /// How many pieces of work are done at the same time.
-#[cfg(not(target_arch = "wasm32"))]
 pub(super) fn width() -> usize {
-    rayon::current_num_threads()
+    #[cfg(not(target_arch = "wasm32"))]
+    return rayon::current_num_threads();
+    #[cfg(target_arch = "wasm32")]
+    return 1;
 }
