@@ -120,7 +120,7 @@ fn a_bad_request_gets_status_2_and_one_line_that_names_the_field() {
         (r#"{"task":"modes","model":{"force":"cubic"}}"#, &["model.force", "cubic", "quadratic", "exact"]),
         (r#"{"task":"dance"}"#, &["task", "dance", "modes", "boundary", "simulate"]),
         (r#"{}"#, &["task", "modes"]),
-        (r#"[1,2]"#, &["expected an object"]),
+        (r#"[1,2]"#, &["must be an object"]),
         (r#"{"task":"modes""#, &["not valid JSON"]),
         ("", &["not valid JSON"]),
         (r#"{"task":"simulate","t_end":-1}"#, &["t_end", "-1"]),
@@ -190,7 +190,10 @@ fn a_bad_request_gets_status_2_and_one_line_that_names_the_field() {
 
 #[test]
 fn input_that_is_no_text_is_refused_and_arguments_are_explained() {
-    assert!(message(&[0xff, 0xfe, 0x00]).contains("cannot be read"));
+    assert!(message(b"\xfc\xfd").contains("not UTF-8"));
+    assert!(message(b"\xff\xfe{\0}\0").contains("UTF-16"));
+    let marked = harvester(&[], b"\xef\xbb\xbf{\"task\":\"modes\"}");
+    assert_eq!(marked.status.code(), Some(0));
     for (argument, start) in [("--help", "usage: harvester"), ("--version", "harvester 0.")] {
         let output = harvester(&[argument], b"");
         assert_eq!(output.status.code(), Some(0));

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use harvester_lab::jobs::design::measured::{Columns, Import, MeasuredError, detect};
+use harvester_lab::jobs::design::measured::{Columns, Import, MeasuredError, detect, look};
 use harvester_lab::jobs::design::thin::{Thinner, extent};
 
 fn read(text: &str, columns: Columns) -> Result<Vec<[f64; 2]>, MeasuredError> {
@@ -99,4 +99,25 @@ fn a_million_rows_are_read_and_thinned_in_slices_in_well_under_a_second() {
     assert!((highest - 20.0).abs() < 1e-5);
     // Generous: several builds may share the machine.
     assert!(whole < 3.0, "{whole}");
+}
+
+#[test]
+fn what_is_no_table_of_text_is_refused_before_it_is_read() {
+    let message = |bytes: &[u8]| detect(bytes).expect_err("no table").to_string();
+    assert_eq!(message(b"\xff\xfe0\0,\x001\0"), "it is UTF-16 text: save it as UTF-8");
+    assert_eq!(message(b"0,1\n\0\0\0"), "it is no text: byte 5 is no character of one");
+    let mut long = vec![b'1'; 50 << 20];
+    let begin = Instant::now();
+    assert_eq!(message(&long), "line 1 is longer than 65536 characters");
+    assert!(begin.elapsed().as_millis() < 50);
+    long.splice(..0, *b"0,1\r\n1,2\r\n");
+    assert_eq!(message(&long), "line 3 is longer than 65536 characters");
+    assert_eq!(
+        look(b"0,1\n", 65 << 20).map_err(|error| error.to_string()),
+        Err("it is larger than 64 MB".into())
+    );
+    // What tools write besides: a mark at the end of the file, a mark of the byte order.
+    assert!(detect(b"\xef\xbb\xbf0,1\n1,2\n\x1a").is_ok());
+    let numbers = read("\u{feff}0,1\n1,2\n", Columns::default());
+    assert_eq!(numbers, Ok(vec![[0.0, 1.0], [1.0, 2.0]]));
 }

@@ -60,6 +60,7 @@ function translate(holder, present, show) {
 function speak(code, catalogue) {
   words = catalogue;
   root.lang = code;
+  root.dataset.spoken = code;
   const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   while (texts.nextNode()) {
     const node = texts.currentNode;
@@ -80,7 +81,9 @@ function firstLanguage() {
     // Nothing stored, or nothing that can be read: the app will say so.
   }
   const asked = new URLSearchParams(location.search).get("lang");
-  const known = (tag) => (tag ? ["en", ...Object.keys(EARLY)].find((code) => tag.toLowerCase().startsWith(code)) : undefined);
+  // What is stored may be anything.
+  const known = (tag) =>
+    typeof tag === "string" ? ["en", ...Object.keys(EARLY)].find((code) => tag.toLowerCase().startsWith(code)) : undefined;
   return known(asked) ?? known(chosen) ?? known(navigator.language) ?? "en";
 }
 

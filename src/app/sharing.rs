@@ -6,6 +6,8 @@ use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
 use crate::app::text::{Language, fill, reworded, tr};
+use crate::jobs::design::measured;
+use crate::jobs::input::{self, NoText};
 
 /// Name of saved files.
 const FILE_NAME: &str = "harvester-scenario.json";
@@ -29,6 +31,20 @@ pub enum Errand {
     Fetch(Language),
     /// Have the page's own markup in this language, with these texts by their English ones, as JSON.
     Speak(Language, String),
+}
+
+/// Bytes at the beginning of a file that [`look`] needs.
+pub const FIRST: usize = measured::FIRST;
+
+/// Looks whether a file of this name, with these `first` bytes of `size`, can be opened at all, before the rest is read.
+///
+/// # Errors
+/// Why not.
+pub fn look(name: &str, first: &[u8], size: usize) -> Result<(), String> {
+    if !is_scenario(name, first) {
+        return measured::look(first, size).map_err(|error| error.to_string());
+    }
+    if size > LARGEST_FILE { Err(tr("it is too large for a scenario").to_owned()) } else { Ok(()) }
 }
 
 /// Whether a file of this name and contents is meant as a scenario; it holds measured data otherwise.
@@ -71,6 +87,7 @@ impl App {
     /// Shows what a file holds, as one step: a scenario, or measured data, which brings its page to the front. A bad
     /// scenario changes nothing but the notice.
     pub fn open_file(&mut self, name: &str, contents: Result<Vec<u8>, String>) {
+        let contents = contents.and_then(|bytes| look(name, &bytes, bytes.len()).map(|()| bytes));
         let contents = match contents {
             Ok(bytes) if !is_scenario(name, &bytes) => return self.import(name, bytes),
             contents => contents,
@@ -98,11 +115,10 @@ impl App {
     }
 
     fn read_file(&self, bytes: Vec<u8>) -> Result<View, String> {
-        if bytes.len() > LARGEST_FILE {
-            return Err(tr("it is too large for a scenario").to_owned());
-        }
-        let text = String::from_utf8(bytes).map_err(|_| tr("it is not a text").to_owned())?;
-        let text = text.trim_start_matches('\u{feff}');
+        let text = input::text(&bytes).map_err(|problem| match problem {
+            NoText::Utf16 => tr("it is UTF-16 text: save it as UTF-8").to_owned(),
+            NoText::Other => tr("it is not a text").to_owned(),
+        })?;
         if !text.trim_start().starts_with('{') {
             return Err(tr("it is not a scenario, which begins with {").to_owned());
         }
@@ -190,13 +206,39 @@ mod tests {
             assert!(notice.starts_with("bad.json could not be opened: "), "{notice}");
             assert_eq!(app.view, before);
         }
-        app.open_file("bad.json", Ok(vec![0xff, 0xfe]));
-        assert!(app.notice.take().is_some_and(|notice| notice.contains("not a text")));
+        for (bytes, part) in [(&b"\xfc"[..], "not a text"), (b"\xff\xfe{\0}\0", "UTF-16")] {
+            app.open_file("bad.json", Ok(bytes.to_vec()));
+            assert!(app.notice.take().is_some_and(|notice| notice.contains(part)));
+        }
+        app.open_file("good.json", Ok([b"\xef\xbb\xbf", text.as_bytes()].concat()));
+        assert_eq!(app.notice, None);
         app.open_file("good.json", Ok(text.clone().into_bytes()));
         assert_eq!((app.notice.clone(), app.view.clone()), (None, saved.with_looks_of(&app.view)));
         assert_eq!(app.view.dark, Some(true));
         do_it(&mut app, Command::Undo);
         assert_eq!(app.view.figure, 9);
+    }
+
+    #[test]
+    fn what_is_no_text_is_refused_by_its_beginning() {
+        let mut app = app();
+        let before = app.view.clone();
+        let row = |length: usize| [b"0,1\n1,2\n".to_vec(), vec![b'7'; length]].concat();
+        for (name, first, size, part) in [
+            ("sound.wav", b"RIFF\x24\0\0\0WAVE".to_vec(), 200_000_000, "byte 6"),
+            ("one.csv", vec![b'1'; FIRST], 50_000_000, "line 1 is longer"),
+            ("run.csv", row(100), 500_000_000, "larger than 64 MB"),
+            ("view.json", b"{".to_vec(), 50_000_000, "too large for a scenario"),
+            ("old.csv", b"\xff\xfe1\0,\0".to_vec(), 6, "UTF-16"),
+        ] {
+            let reason = look(name, &first, size).expect_err("unfit");
+            assert!(reason.contains(part), "{reason}");
+        }
+        assert_eq!(look("good.csv", &row(100), 60_000_000), Ok(()));
+        app.open_file("sound.wav", Ok(b"RIFF\0\0".to_vec()));
+        let notice = app.notice.take().expect("a notice");
+        assert!(notice.starts_with("sound.wav could not be opened: it is no text"), "{notice}");
+        assert_eq!(app.view, before);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 pub mod design;
 mod front;
 pub mod live;
+mod salvage;
 mod sweep;
 
 use serde::{Deserialize, Serialize};
@@ -11,10 +12,12 @@ use serde_json::Value;
 use self::design::DesignView;
 pub use self::front::{Layer, MapWindow, Panel, Tab};
 use self::live::LiveView;
+use self::salvage::salvage;
 pub use self::sweep::{Output, SweepView};
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
-use crate::app::text::{Language, fill};
+use crate::app::text::{Language, fill, reworded};
+use crate::jobs::input::{self, FieldError};
 use crate::jobs::study::curves;
 use crate::model::{ModelError, Parameter};
 use crate::scenario::Scenario;
@@ -92,18 +95,21 @@ impl View {
     /// # Errors
     /// One line with the path of the field and what is wrong with it.
     pub fn read(json: &str, present: &Self) -> Result<Self, String> {
-        let value: Value = serde_json::from_str(json).map_err(|error| format!("not valid JSON: {error}"))?;
+        Self::of_value(input::json(json).map_err(|error| error.to_string())?, present)
+    }
+
+    fn of_value(value: Value, present: &Self) -> Result<Self, String> {
         if !value.is_object() {
             return Err("expected an object such as {\"parameters\":{\"omega\":25}}".to_owned());
         }
         let is_view = value.get("scenario").is_some();
         let scenario = value.get("scenario").unwrap_or(&value);
         let numbers_follow = scenario.get("parameters").is_none();
+        let said = |FieldError { path, problem }| format!("{path}: {problem}");
         let mut view = if is_view {
-            Self::from_value(value)?
+            input::fields(value).map_err(said)?
         } else {
-            let scenario = serde_path_to_error::deserialize(value).map_err(describe)?;
-            Self { scenario, ..present.clone() }
+            Self { scenario: input::fields(value).map_err(said)?, ..present.clone() }
         };
         if let Some(device) = view.scenario.device.filter(|_| numbers_follow) {
             let scaling = view.scenario.scaling;
@@ -113,9 +119,13 @@ impl View {
         Ok(view)
     }
 
-    /// A view as JSON, not yet checked.
+    /// A view as JSON, not yet checked. An error has the path of the field and the deserialiser's own words.
     pub(super) fn from_value(value: Value) -> Result<Self, String> {
-        serde_path_to_error::deserialize(value).map_err(describe)
+        serde_path_to_error::deserialize(value).map_err(
+            |error: serde_path_to_error::Error<serde_json::Error>| {
+                format!("{}: {}", error.path(), error.inner())
+            },
+        )
     }
 
     /// As JSON.
@@ -149,25 +159,29 @@ impl View {
         Self { dark, contrast, language, projector, beam_moves, ..self }
     }
 
-    /// What an earlier session stored, and a sentence about it when it cannot be used.
+    /// What an earlier session stored, less the parts that cannot be used, and a sentence about those.
     pub fn restore(stored: Option<&str>) -> (Self, Option<String>) {
         let Some(text) = stored else { return (Self::default(), None) };
-        match Self::read(text, &Self::default()) {
-            Ok(view) => (view, None),
+        let read = input::json(text).map_err(|error| error.to_string());
+        match read.and_then(|value| salvage(value, |value| Self::of_value(value, &Self::default()))) {
+            Ok((view, dropped)) if dropped.is_empty() => (view, None),
+            Ok((view, dropped)) => {
+                let parts = dropped.join(", ");
+                let message = fill(
+                    "Parts of the stored state could not be used and are as in a fresh start: {parts}. The rest is kept.",
+                    &[("parts", &parts)],
+                );
+                (view, Some(message))
+            }
             Err(reason) => {
                 let message = fill(
                     "The stored state could not be used ({reason}); this is a fresh start.",
-                    &[("reason", &reason)],
+                    &[("reason", &reworded(&reason))],
                 );
                 (Self::default(), Some(message))
             }
         }
     }
-}
-
-/// One line with the path of the field and what is wrong with it.
-fn describe(error: serde_path_to_error::Error<serde_json::Error>) -> String {
-    format!("{}: {}", error.path(), error.inner())
 }
 
 #[cfg(test)]
@@ -196,16 +210,54 @@ mod tests {
         let view = View { tab: Tab::Paper, projector: true, ..Default::default() };
         let text = serde_json::to_string(&view).expect("a view is plain data");
         assert_eq!(View::restore(Some(&text)), (view, None));
-        for garbage in [
-            "",
-            "{",
-            "[1]",
-            r#"{"scenario":{"parameters":{"beta":7}}}"#,
-            r#"{"scenario":{},"step":1000000000}"#,
-        ] {
+        for garbage in ["", "{", "[1]", "5"] {
             let (view, message) = View::restore(Some(garbage));
             assert_eq!(view, View::default());
             assert!(message.is_some_and(|message| message.contains("could not be used")));
         }
+    }
+
+    #[test]
+    fn bad_parts_of_a_stored_state_are_dropped_and_named_and_the_rest_is_kept() {
+        let good = View { tab: Tab::Sweep, figure: 4, projector: true, ..Default::default() };
+        let spoiled = |spoil: &dyn Fn(&mut Value)| {
+            let mut value = good.to_value();
+            spoil(&mut value);
+            View::restore(Some(&value.to_string()))
+        };
+        let set = |place: &'static str, new: Value| {
+            move |value: &mut Value| *value.pointer_mut(place).expect("a place") = new.clone()
+        };
+        let cases: [(&str, Value, &str); 8] = [
+            ("/lang", Value::from(5), "lang"),
+            ("/tab", Value::from("disco"), "tab"),
+            ("/scenario/parameters/beta", Value::from(7), "scenario.parameters.beta"),
+            ("/scenario/parameters/omega", Value::from("fast"), "scenario.parameters.omega"),
+            ("/scenario/initial", Value::from(vec![1.0]), "scenario.initial"),
+            ("/step", Value::from(1_000_000_000), "step"),
+            ("/sweep/dwell/kept", Value::from(-1), "sweep.dwell"),
+            ("/design/search/sides/0/dimension", Value::from(0), "design.search.sides"),
+        ];
+        for (place, new, name) in cases {
+            let (view, message) = spoiled(&set(place, new));
+            let message = message.expect("a message");
+            assert!(message.contains(&format!("fresh start: {name}")), "{place}: {message}");
+            assert_eq!((view.figure, view.projector), (4, true), "{place}: {message}");
+            assert!(place == "/tab" || view.tab == Tab::Sweep, "{place}: {message}");
+            assert!(view.check().is_ok());
+        }
+        // Several at once, of which each is named.
+        let (view, message) = spoiled(&|value: &mut Value| {
+            value["lang"] = Value::from(vec![1]);
+            value["scenario"]["t_end"] = Value::from(-1);
+            value["scenario"]["gravity"] = Value::from(1);
+        });
+        let message = message.expect("a message");
+        for name in ["lang", "scenario.t_end", "scenario.gravity"] {
+            assert!(message.contains(name), "{message}");
+        }
+        let mut expected = good.clone();
+        expected.scenario.t_end = Scenario::default().t_end;
+        assert_eq!(view, expected);
     }
 }

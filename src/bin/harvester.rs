@@ -1,38 +1,46 @@
-//! The native command: JSON requests on standard input, JSON answers on standard output.
+//! The native command: JSON requests on standard input, JSON answers on standard output, progress on standard error when
+//! that is a terminal.
 //!
 //! Exit status 0 with an answer, or a line for each line of a batch; 2 with one line on standard error when the input
 //! is not good.
 
-use std::io::{self, BufWriter, ErrorKind, Read, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Read, Write};
 use std::process::ExitCode;
+use std::sync::Mutex;
+use std::time::Duration;
 
-use harvester_lab::jobs::batch::{BatchError, answer_lines};
-use harvester_lab::jobs::solve;
+use harvester_lab::jobs::batch::{BatchError, Manner, answer_lines};
+use harvester_lab::jobs::budget::{Budget, now};
+use harvester_lab::jobs::{input, solve_within};
 
 const USAGE: &str = "usage: harvester < request.json > answer.json
-       harvester --batch < requests.jsonl > answers.jsonl
+       harvester --batch [--timeout SECONDS] < requests.jsonl > answers.jsonl
 
 One JSON request on standard input, one JSON answer on standard output, for example
   echo '{\"task\":\"modes\"}' | harvester
-Tasks: modes, boundary, simulate, orbit, chart, sweep, verdict, basin, harvest, load, materials, limits, trust, find.
-The README describes their fields.
+Tasks: modes, boundary, simulate, orbit, chart, sweep, verdict, basin, harvest, load, materials, limits, trust, find,
+map. The README describes their fields. How far a request is stands on standard error when that is a terminal.
 
-  --batch    one request a line, one answer a line in the same order, on all cores;
-             a bad line is answered with {\"error\": ...}
-  --help     this text
-  --version  the version";
+  --batch            one request a line, one answer a line in the same order, on all cores;
+                     a bad line is answered with {\"error\": ...}
+  --timeout SECONDS  for a line of a batch: one that is not answered by then is answered with {\"error\": ...}
+  --help             this text
+  --version          the version";
+
+/// Longest time for a line (s).
+const LONGEST: f64 = 1e7;
 
 /// What the command is asked to do.
 enum Mode {
     Single,
-    Batch,
+    Batch(Option<Duration>),
     Say(String),
 }
 
 fn main() -> ExitCode {
     match mode() {
         Ok(Mode::Single) => single(),
-        Ok(Mode::Batch) => batch(),
+        Ok(Mode::Batch(timeout)) => batch(timeout),
         Ok(Mode::Say(text)) => say(&text),
         Err(error) => fail(&format!("{error}\n{USAGE}")),
     }
@@ -40,12 +48,13 @@ fn main() -> ExitCode {
 
 /// Reads the arguments.
 fn mode() -> Result<Mode, lexopt::Error> {
-    use lexopt::prelude::{Long, Short};
+    use lexopt::prelude::{Long, Short, ValueExt as _};
     let mut parser = lexopt::Parser::from_env();
-    let mut mode = Mode::Single;
+    let (mut batch, mut timeout) = (false, None);
     while let Some(argument) = parser.next()? {
         match argument {
-            Long("batch") => mode = Mode::Batch,
+            Long("batch") => batch = true,
+            Long("timeout") => timeout = Some(parser.value()?.parse_with(seconds)?),
             Long("help") | Short('h') => return Ok(Mode::Say(USAGE.to_owned())),
             Long("version") | Short('V') => {
                 return Ok(Mode::Say(format!("harvester {}", env!("CARGO_PKG_VERSION"))));
@@ -53,25 +62,82 @@ fn mode() -> Result<Mode, lexopt::Error> {
             other => return Err(other.unexpected()),
         }
     }
-    Ok(mode)
+    match (batch, timeout) {
+        (true, timeout) => Ok(Mode::Batch(timeout)),
+        (false, None) => Ok(Mode::Single),
+        (false, Some(_)) => Err("--timeout is for the lines of a --batch".into()),
+    }
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds: Option<f64> = text.parse().ok().filter(|seconds| (1e-3..=LONGEST).contains(seconds));
+    seconds.map(Duration::from_secs_f64).ok_or_else(|| format!("allowed are 0.001 to {LONGEST} seconds"))
 }
 
 fn single() -> ExitCode {
-    let mut request = String::new();
-    if let Err(error) = io::stdin().read_to_string(&mut request) {
+    let mut bytes = Vec::new();
+    if let Err(error) = io::stdin().read_to_end(&mut bytes) {
         return fail(&format!("the request cannot be read: {error}"));
     }
-    match solve(&request) {
+    let request = match input::text(&bytes) {
+        Ok(request) => request,
+        Err(problem) => return fail(&format!("the request is {problem}")),
+    };
+    let line = Line::new();
+    let report = |part: f64| line.show(|| format!("{:.0} % computed", 100.0 * part));
+    let answer = solve_within(request, Budget::default().reporting(Some(&report)));
+    line.clear();
+    match answer {
         Ok(answer) => say(&answer),
         Err(message) => fail(&message),
     }
 }
 
-fn batch() -> ExitCode {
-    match answer_lines(io::stdin().lock(), BufWriter::new(io::stdout().lock())) {
+fn batch(timeout: Option<Duration>) -> ExitCode {
+    let line = Line::new();
+    let report = |count| line.show(|| format!("{count} lines answered"));
+    let manner = Manner { timeout, report: Some(&report) };
+    let done = answer_lines(io::stdin().lock(), BufWriter::new(io::stdout().lock()), manner);
+    line.clear();
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(BatchError::Write(error)) => unwritten(&error),
         Err(error) => fail(&error.to_string()),
+    }
+}
+
+/// The line on a terminal that says how far the command is; nothing elsewhere.
+struct Line {
+    terminal: bool,
+    /// When it was written last (s of the clock), and whether ever.
+    written: Mutex<(f64, bool)>,
+}
+
+impl Line {
+    /// Seconds between two writings, and before the first: what is quick needs none.
+    const PAUSE: f64 = 0.25;
+
+    fn new() -> Self {
+        Self { terminal: io::stderr().is_terminal(), written: Mutex::new((now(), false)) }
+    }
+
+    fn show(&self, text: impl FnOnce() -> String) {
+        if !self.terminal {
+            return;
+        }
+        if let Ok(mut written) = self.written.lock()
+            && now() - written.0 >= Self::PAUSE
+        {
+            *written = (now(), true);
+            // A terminal that has gone is no reason to stop.
+            let _ = write!(io::stderr(), "\r\x1b[K{}", text());
+        }
+    }
+
+    fn clear(&self) {
+        if self.written.lock().is_ok_and(|written| written.1) {
+            let _ = write!(io::stderr(), "\r\x1b[K");
+        }
     }
 }
 

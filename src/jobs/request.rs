@@ -1,15 +1,19 @@
 //! The requests: what may be asked.
 
 use serde::de::DeserializeOwned;
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use thiserror::Error;
 
+use super::budget::Budget;
 use super::design::DesignError;
+use super::input::{self, FieldError, JsonError, cut};
 use super::tasks::Answer;
 use super::tasks::basin::BasinRequest;
 use super::tasks::boundary::BoundaryRequest;
 use super::tasks::chart::ChartRequest;
 use super::tasks::design::DesignRequest;
+use super::tasks::device::Described;
 use super::tasks::modes::ModesRequest;
 use super::tasks::orbit::OrbitRequest;
 use super::tasks::simulate::SimulateRequest;
@@ -23,9 +27,12 @@ use crate::theory::TheoryError;
 /// Why a request has no answer; each is one line.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RequestError {
-    /// The text is not JSON.
-    #[error("the request is not valid JSON: {0}")]
-    Json(String),
+    /// The text is not JSON, or not such as a request is.
+    #[error("the request: {0}")]
+    Json(#[from] JsonError),
+    /// The JSON is another value than an object.
+    #[error("the request must be an object such as {{\"task\":\"modes\"}}")]
+    NoObject,
     /// The task is missing or unknown.
     #[error("task = {0} is not available: allowed are {TASKS}")]
     Task(String),
@@ -85,6 +92,38 @@ pub enum RequestError {
 const TASKS: &str = "\"modes\", \"boundary\", \"simulate\", \"orbit\", \"chart\", \"sweep\", \"verdict\", \
                      \"basin\", \"harvest\", \"load\", \"materials\", \"limits\", \"trust\", \"find\", \"map\"";
 
+/// A request with what it may cost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Asked {
+    /// The question.
+    pub request: Request,
+    /// Computing time (s, summed over all cores) after which the answer has what there is.
+    pub budget: f64,
+}
+
+/// An answer, and what it lacks.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Whole {
+    /// What was asked for.
+    #[serde(flatten)]
+    pub answer: Answer,
+    /// What of it is missing, and why; absent when it is whole.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub missing: Option<String>,
+}
+
+impl Asked {
+    /// Computes the answer, within `budget` and the request's own.
+    ///
+    /// # Errors
+    /// [`RequestError`] when a number is out of range or the question has no answer.
+    pub fn answer(&self, budget: Budget<'_>) -> Result<Whole, RequestError> {
+        let budget = budget.of(self.budget);
+        let answer = self.request.answer(&budget)?;
+        Ok(Whole { answer, missing: budget.missing() })
+    }
+}
+
 /// A checked question.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Request {
@@ -113,15 +152,26 @@ impl Request {
     ///
     /// # Errors
     /// [`RequestError`] for the first thing that is wrong.
-    pub fn parse(json: &str) -> Result<Self, RequestError> {
-        let value: Value =
-            serde_json::from_str(json).map_err(|error| RequestError::Json(error.to_string()))?;
-        let Value::Object(mut fields) = value else {
-            return Err(RequestError::Json("expected an object such as {\"task\":\"modes\"}".into()));
+    pub fn parse(json: &str) -> Result<Asked, RequestError> {
+        let Value::Object(mut fields) = input::json(json)? else {
+            return Err(RequestError::NoObject);
         };
         let task = fields.remove("task").unwrap_or(Value::Null);
-        if let Some(request) = DesignRequest::read(task.as_str().unwrap_or_default(), &fields)? {
+        let budget =
+            fields.remove_entry("budget").map(|own| read::<Own>(Value::Object([own].into_iter().collect())));
+        let budget = budget.transpose()?.map_or(Budget::USUAL, |own| own.budget);
+        ModelError::check("budget", budget, Budget::RANGE, " s")?;
+        let device = Described::take(&mut fields)?;
+        Ok(Asked { request: Self::of(&task, device, fields)?, budget })
+    }
+
+    fn of(task: &Value, device: Described, mut fields: Map<String, Value>) -> Result<Self, RequestError> {
+        if let Some(request) = DesignRequest::read(task.as_str().unwrap_or_default(), device, &fields)? {
             return Ok(Self::Design(Box::new(request)));
+        }
+        if device != Described::default() {
+            let numbers = serde_json::to_value(device.numbers()?).unwrap_or_default();
+            fields.insert("parameters".to_owned(), numbers);
         }
         let fields = Value::Object(fields);
         match task.as_str() {
@@ -133,36 +183,41 @@ impl Request {
             Some("sweep") => Ok(Self::Sweep(read(fields)?)),
             Some("verdict") => Ok(Self::Verdict(read(fields)?)),
             Some("basin") => Ok(Self::Basin(read(fields)?)),
-            _ => Err(RequestError::Task(task.to_string())),
+            _ => Err(RequestError::Task(cut(&task.to_string()))),
         }
     }
 
-    /// Computes the answer.
+    /// Computes the answer, as far as `budget` goes. Tasks without pieces have a counted one of their own.
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range or the question has no answer.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         match self {
             Self::Modes(request) => request.answer(),
-            Self::Boundary(request) => request.answer(),
-            Self::Simulate(request) => request.answer(),
+            Self::Boundary(request) => request.answer(budget),
+            Self::Simulate(request) => request.answer(budget),
             Self::Orbit(request) => request.answer(),
-            Self::Chart(request) => request.answer(),
-            Self::Sweep(request) => request.answer(),
+            Self::Chart(request) => request.answer(budget),
+            Self::Sweep(request) => request.answer(budget),
             Self::Verdict(request) => request.answer(),
-            Self::Basin(request) => request.answer(),
-            Self::Design(request) => request.answer(),
+            Self::Basin(request) => request.answer(budget),
+            Self::Design(request) => request.answer(budget),
         }
     }
 }
 
+/// What every request may say of itself.
+#[derive(Debug, Clone, Copy, Deserialize)]
+struct Own {
+    budget: f64,
+}
+
 /// Deserialises with the path of the field in the error, and the allowed range where the field has one.
 pub(super) fn read<T: DeserializeOwned>(value: Value) -> Result<T, RequestError> {
-    serde_path_to_error::deserialize(value).map_err(|error| {
-        let path = error.path().to_string();
+    input::fields(value).map_err(|FieldError { path, problem }| {
         let problem = match range(&path) {
-            Some((low, high)) => format!("{}: allowed are {low} to {high}", error.inner()),
-            None => error.inner().to_string(),
+            Some((low, high)) => format!("{problem}: allowed are {low} to {high}"),
+            None => problem,
         };
         RequestError::Field { field: if path == "." { "request".into() } else { path }, problem }
     })

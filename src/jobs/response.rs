@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::dynamics::branch::MOST_EFFORT;
 use crate::dynamics::{
     Bifurcation, Branch, BranchEnd, BranchPoint, Course, Instability, Orbit, OrbitError, follow_branch,
     follow_doubled,
@@ -56,6 +57,8 @@ pub struct ResponseCurve {
     pub changes: Vec<Change>,
     /// Why it ends, in words; empty at the end of the range.
     pub end: String,
+    /// Whether more of it, or of the branches that leave it, was left out because it would take too long.
+    pub cut: bool,
 }
 
 /// Follows the forced motion of the device of `scenario` while a number that is `moved`, the base shaken so, goes
@@ -83,8 +86,9 @@ pub fn response(
         (low, high) => low.into_iter().chain(high.into_iter().flatten()).collect(),
     };
     let mut curves = Vec::new();
+    let mut effort = 0;
     for (branch, course) in found {
-        add_with_doubled(scenario, &mut curves, branch, course, DOUBLINGS)?;
+        add_with_doubled(scenario, (&mut curves, &mut effort), branch, course, DOUBLINGS)?;
     }
     Ok(curves)
 }
@@ -106,15 +110,18 @@ fn same(a: f64, b: f64, (low, high): (f64, f64)) -> bool {
     (a - b).abs() <= SAME * (high - low)
 }
 
-/// Adds a branch to `curves`, and those that leave its period doublings, unless a doubled branch already ended there.
+/// Adds a branch to `curves`, and those that leave its period doublings, unless a doubled branch already ended there, or
+/// all together have taken as much `effort` as a single one may.
 fn add_with_doubled(
     scenario: &Scenario,
-    curves: &mut Vec<ResponseCurve>,
+    (curves, effort): (&mut Vec<ResponseCurve>, &mut u64),
     branch: Branch,
     course: Course,
     doublings: usize,
 ) -> Result<(), OrbitError> {
+    let place = curves.len();
     curves.push(curve(&branch, course.periods));
+    *effort += branch.effort;
     if doublings == 0 {
         return Ok(());
     }
@@ -125,13 +132,17 @@ fn add_with_doubled(
         if closed.iter().any(|value| same(*value, birth.point.value, course.range)) {
             continue;
         }
+        if *effort > MOST_EFFORT {
+            curves[place].cut = true;
+            break;
+        }
         // A doubling so degenerate that no doubled motion is found beside it leaves the rest of the picture intact.
         let Ok(doubled) = follow_doubled(&system, birth, &course) else { continue };
         if let BranchEnd::Halved { value } = doubled.end {
             closed.push(value);
         }
         let course = Course { periods: 2 * course.periods, ..course };
-        add_with_doubled(scenario, curves, doubled, course, doublings - 1)?;
+        add_with_doubled(scenario, (&mut *curves, &mut *effort), doubled, course, doublings - 1)?;
     }
     Ok(())
 }
@@ -141,6 +152,7 @@ fn curve(branch: &Branch, periods: usize) -> ResponseCurve {
         BranchEnd::Range | BranchEnd::Halved { .. } => String::new(),
         BranchEnd::Lost { reason } => reason.to_string(),
         BranchEnd::Points => "the largest number of points was reached".to_owned(),
+        BranchEnd::Effort => "following it further would take too long".to_owned(),
     };
     let change = |found: &Bifurcation| Change { kind: found.kind, point: point(&found.point) };
     ResponseCurve {
@@ -148,6 +160,7 @@ fn curve(branch: &Branch, periods: usize) -> ResponseCurve {
         points: branch.points.iter().map(point).collect(),
         changes: branch.bifurcations.iter().map(change).collect(),
         end,
+        cut: matches!(branch.end, BranchEnd::Points | BranchEnd::Effort),
     }
 }
 

@@ -73,6 +73,76 @@ fn what_a_browser_lacks_is_named() {
     page.close();
 }
 
+/// Whether the text that needs no script is seen, in these languages.
+fn late(page: &mut Page) -> Vec<String> {
+    let seen = page.script(
+        "const late = document.getElementById('late'); \
+         if (getComputedStyle(late).visibility !== 'visible') return []; \
+         return [...late.querySelectorAll('[lang]')].filter((text) => text.checkVisibility()).map((text) => text.lang)",
+    );
+    let seen = seen.as_array().cloned().unwrap_or_default();
+    seen.iter().filter_map(|code| code.as_str().map(str::to_owned)).collect()
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn a_start_that_never_ends_says_what_to_do_after_ten_seconds() {
+    let mut page = Page::open(1440, 900, Theme::Light);
+    page.expects_errors();
+    // The module never arrives.
+    let undo = page.before_each_load(
+        "WebAssembly.instantiateStreaming = WebAssembly.instantiate = () => new Promise(() => {})",
+    );
+    page.reload_unready();
+    assert_eq!(late(&mut page), Vec::<String>::new());
+    let begin = std::time::Instant::now();
+    while late(&mut page).is_empty() {
+        assert!(begin.elapsed() < Duration::from_secs(30), "nothing is said");
+        sleep(Duration::from_millis(250));
+    }
+    assert!(begin.elapsed() > Duration::from_secs(6), "{:?}", begin.elapsed());
+    assert_eq!(late(&mut page), ["en"]);
+    page.screenshot("late");
+    axe::check(&page, "late start");
+    page.before_no_load(&undo);
+    // The start script arrives cut: nothing of it runs, and no language is known.
+    let undo = page.before_each_load("Object.defineProperty(HTMLElement.prototype, 'dataset', { get() { throw new SyntaxError('cut'); } })");
+    page.reload_unready();
+    let begin = std::time::Instant::now();
+    while late(&mut page).is_empty() {
+        assert!(begin.elapsed() < Duration::from_secs(30), "nothing is said");
+        sleep(Duration::from_millis(250));
+    }
+    assert_eq!(late(&mut page), ["en", "de", "zh"]);
+    page.screenshot("late-without-scripts");
+    page.before_no_load(&undo);
+    page.reload();
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn a_stored_state_with_bad_parts_starts_and_they_are_named() {
+    let mut page = Page::open(1440, 900, Theme::Light);
+    drag_slider(&mut page, "Frequency", 0.3, 0.7, 10);
+    let frequency = number(&mut page, "Frequency");
+    page.script(
+        "const spoil = () => { \
+           const state = JSON.parse(localStorage.getItem('harvester-lab.v1')); \
+           state.lang = 5; state.scenario.t_end = 'long'; \
+           localStorage.setItem('harvester-lab.v1', JSON.stringify(state)); \
+         }; \
+         addEventListener('pagehide', spoil)",
+    );
+    page.reload();
+    assert_eq!(number(&mut page, "Frequency"), frequency);
+    assert_eq!(page.state()["view"]["scenario"]["t_end"], 600.0);
+    let notice = page.find("Parts of the stored state could not be used", &["Label"]).label;
+    assert!(notice.contains(": lang, scenario.t_end. The rest is kept"), "{notice}");
+    page.screenshot("bad-parts");
+    page.close();
+}
+
 #[test]
 #[ignore = "needs the built page and Chromium: make test"]
 fn a_lost_graphics_context_is_told() {

@@ -187,3 +187,30 @@ fn a_file_is_saved_opened_and_dropped_and_a_bad_one_changes_nothing() {
     page.wait_until("the opened file", |state| parameter(state, "beta") == 0.0042);
     page.close();
 }
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn a_file_that_cannot_be_opened_is_refused_by_its_beginning() {
+    let mut page = Page::open(1440, 900, Theme::Light);
+    page.script(
+        "window.read = []; const all = Blob.prototype.arrayBuffer; \
+         Blob.prototype.arrayBuffer = function () { window.read.push(this.size); return all.call(this); }",
+    );
+    for (name, fill, part) in [
+        ("sound.wav", 0, "it is no text: byte 1 is no character of one"),
+        ("one.csv", i32::from(b'1'), "line 1 is longer than 65536 characters"),
+    ] {
+        page.script_with(
+            "const files = new DataTransfer(); \
+             files.items.add(new File([new Uint8Array(5e7).fill(arguments[1])], arguments[0])); \
+             const drop = new DragEvent('drop', { dataTransfer: files, bubbles: true, cancelable: true }); \
+             document.getElementById('canvas').dispatchEvent(drop);",
+            vec![json!(name), json!(fill)],
+        );
+        let notice = page.find(&format!("{name} could not be opened"), &["Label"]).label;
+        assert!(notice.contains(part), "{notice}");
+    }
+    assert_eq!(page.script("return window.read"), json!([65536, 65536]));
+    assert_ne!(page.state()["view"]["tab"], "design");
+    page.close();
+}

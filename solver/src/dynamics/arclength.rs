@@ -45,6 +45,8 @@ pub(super) struct Family<const K: usize> {
     spare: Vec<(ReducedSystem, OrbitSolver)>,
     /// Derivatives of the defect with respect to the parameters, (2N + 1) x K.
     columns: Option<DMatrix<f64>>,
+    /// Effort of the solvers that are no longer kept.
+    spent: u64,
 }
 
 impl<const K: usize> Family<K> {
@@ -55,14 +57,19 @@ impl<const K: usize> Family<K> {
         let gap = solver.map().gap();
         let state = solver.map().scales().iter().map(|scale| scale * gap);
         let units = state.chain(axes.iter().map(Axis::width)).collect();
-        let (difference, spare, columns) = (DIFFERENCE, Vec::new(), None);
+        let (difference, spare, columns, spent) = (DIFFERENCE, Vec::new(), None, 0);
         let system = system.clone();
-        Ok(Self { system, periods, solver, difference, axes, origin, shaking, units, spare, columns })
+        Ok(Self { system, periods, solver, difference, axes, origin, shaking, units, spare, columns, spent })
     }
 
     /// The same, shaken so.
     pub(super) fn shaken(self, shaking: Shaking) -> Self {
         Self { shaking, ..self }
+    }
+
+    /// What was computed so far, as [`OrbitSolver::effort`].
+    pub(super) fn effort(&self) -> u64 {
+        self.spent + self.solver.effort() + self.spare.iter().map(|(_, solver)| solver.effort()).sum::<u64>()
     }
 
     /// Length 2N + 1 of the state.
@@ -121,7 +128,7 @@ impl<const K: usize> Family<K> {
                 (std::mem::replace(&mut self.system, system), std::mem::replace(&mut self.solver, solver));
             self.spare.push(left);
             if self.spare.len() > SPARE {
-                self.spare.remove(0);
+                self.spent += self.spare.remove(0).1.effort();
             }
         }
         if self.system.parameters.beta != set.beta {

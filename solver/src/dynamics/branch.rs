@@ -55,6 +55,9 @@ pub struct Bifurcation {
     pub point: BranchPoint,
 }
 
+/// Most that is computed for a branch, as [`super::OrbitSolver::effort`]: some seconds, where usual ones take hundredths.
+pub const MOST_EFFORT: u64 = 8_000_000;
+
 /// Why a branch is not followed any further.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BranchEnd {
@@ -72,6 +75,8 @@ pub enum BranchEnd {
     },
     /// The largest number of points was reached.
     Points,
+    /// More was computed than a branch may cost.
+    Effort,
 }
 
 /// A branch of periodic orbits.
@@ -83,4 +88,6 @@ pub struct Branch {
     pub bifurcations: Vec<Bifurcation>,
     /// Why it ends.
     pub end: BranchEnd,
+    /// What was computed for it, as [`super::OrbitSolver::effort`].
+    pub effort: u64,
 }

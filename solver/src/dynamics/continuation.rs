@@ -9,7 +9,7 @@ use nalgebra::{Complex, DVector};
 use super::OrbitError;
 use super::arclength::Family;
 use super::bracket::root;
-use super::branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course};
+use super::branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course, MOST_EFFORT};
 use super::floquet::{Instability, eigenvector};
 use super::orbit::Observer;
 use super::plane::Axis;
@@ -106,7 +106,8 @@ struct Follower {
 
 impl Follower {
     fn new(family: Family<1>, course: &Course) -> Self {
-        let branch = Branch { points: Vec::new(), bifurcations: Vec::new(), end: BranchEnd::Points };
+        let branch =
+            Branch { points: Vec::new(), bifurcations: Vec::new(), end: BranchEnd::Points, effort: 0 };
         Self { family, course: *course, branch }
     }
 
@@ -115,6 +116,10 @@ impl Follower {
         self.branch.points.push(here.point.clone());
         let mut step = STEPS.0;
         while self.branch.points.len() < self.course.most_points {
+            if self.family.effort() > MOST_EFFORT {
+                self.branch.end = BranchEnd::Effort;
+                break;
+            }
             let (moved, next, border) = match self.advance_within(&here, step) {
                 Err(_) if step > STEPS.1 => {
                     step *= 0.5;
@@ -153,6 +158,7 @@ impl Follower {
             here = next;
             step = (1.5 * step).min(STEPS.2);
         }
+        self.branch.effort = self.family.effort();
         Ok(self.branch)
     }
 

@@ -47,6 +47,7 @@ pub struct OrbitSolver {
     /// Derivative of the map at the state of the last evaluation, scaled.
     matrix: DMatrix<f64>,
     residual: f64,
+    effort: u64,
 }
 
 impl OrbitSolver {
@@ -65,7 +66,19 @@ impl OrbitSolver {
             state: vec![0.0; n],
             matrix: DMatrix::zeros(n, n),
             residual: f64::INFINITY,
+            effort: 0,
         }
+    }
+
+    /// What was computed so far: steps with their derivatives, each counted N + 1 times, as it takes about that much longer.
+    /// It bounds time in the same way on every machine: a million takes some second.
+    pub fn effort(&self) -> u64 {
+        self.effort
+    }
+
+    fn count(&mut self, periods: usize) {
+        let n = self.state.len();
+        self.effort += (self.map.steps_per_period() * periods * n.div_ceil(2)) as u64;
     }
 
     /// The map, for what only it knows.
@@ -203,6 +216,7 @@ impl OrbitSolver {
 
     /// Map and derivative at the present state; returns the estimated error in units of what is allowed.
     fn evaluate(&mut self, beta: f64, periods: usize) -> Result<f64, OrbitError> {
+        self.count(periods);
         let error = self.map.apply(&self.state, beta, periods, |_, _| ())?;
         self.take();
         Ok(error)
@@ -216,6 +230,7 @@ impl OrbitSolver {
         periods: usize,
         observer: impl FnMut(&Step<'_>, &StepDerivative<'_>),
     ) -> Result<f64, OrbitError> {
+        self.count(periods);
         self.map.apply(&self.state, beta, periods, observer)?;
         self.take();
         Ok(self.residual)

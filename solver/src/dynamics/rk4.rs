@@ -2,12 +2,22 @@
 
 use std::f64::consts::TAU;
 
+use nalgebra::Complex;
+
 use super::collocation::check_state;
 use super::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
 use crate::model::{ReducedSystem, RestForce};
 
 /// Steps of one excitation period in the paper's runs.
 pub const PAPER_STEPS_PER_PERIOD: u32 = 10_000;
+
+/// The factor |1 + z + z^2/2 + z^3/6 + z^4/24| by which a step of length h multiplies a linear motion exp(lambda t), with
+/// z = lambda h. Where it is above 1 for a motion that decays, the steps are too long and the numbers grow by themselves.
+///
+/// Source: Hairer & Wanner, "Solving Ordinary Differential Equations II", section IV.2.
+pub fn amplification(z: Complex<f64>) -> f64 {
+    (1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))).norm()
+}
 
 /// The classical method on a grid of equal fractions of the excitation period.
 ///
@@ -108,5 +118,21 @@ impl<'a> RungeKutta4<'a> {
         } else {
             None
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_region_of_stability_is_the_textbooks() {
+        // Borders on the real and the imaginary axis: 2.785293563 and 2 sqrt(2).
+        let (real, imaginary) = (2.785293563405282, 8.0_f64.sqrt());
+        assert!((amplification(Complex::new(-real, 0.0)) - 1.0).abs() < 1e-12);
+        assert!((amplification(Complex::new(0.0, imaginary)) - 1.0).abs() < 1e-12);
+        assert!(amplification(Complex::new(0.0, 1.001 * imaginary)) > 1.0);
+        let z = Complex::new(-0.01, 0.02);
+        assert!((amplification(z) - z.exp().norm()).abs() < 1e-10);
     }
 }

@@ -103,6 +103,7 @@ impl Default for Device {
             youngs_modulus: 3.81e10,
             second_moment: 3.6e-13,
             viscosity: 1.7310e7,
+            // As printed: standard gravity, rounded.
             gravity: 9.8067,
             capacitance: 5.9531e-8,
             resistance: 7_631_732.0,

@@ -67,12 +67,12 @@ impl Device {
         }
     }
 
-    /// Amplitude of the base's acceleration, B Omega^2, in g.
+    /// Peak of the base's acceleration, B Omega^2, in g.
     pub fn acceleration(&self) -> f64 {
         self.base_amplitude * (TAU * self.frequency).powi(2) / STANDARD_GRAVITY
     }
 
-    /// The same device shaken with this amplitude of acceleration (g) at its own frequency.
+    /// The same device shaken with this peak of acceleration (g) at its own frequency.
     #[must_use]
     pub fn with_acceleration(&self, acceleration: f64) -> Self {
         let base_amplitude = acceleration * STANDARD_GRAVITY / (TAU * self.frequency).powi(2);

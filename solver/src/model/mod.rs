@@ -30,7 +30,7 @@ pub use modes::{Mode, ModeSet};
 pub use parameters::{Parameter, ParameterSet, Parameters};
 pub use reduced::ReducedSystem;
 pub use shaking::Shaking;
-pub use units::Units;
+pub use units::{STANDARD_GRAVITY, Units};
 
 /// Largest number of modes a truncation may keep (dimensionless count).
 pub const MAX_MODES: usize = 8;

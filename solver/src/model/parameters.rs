@@ -168,18 +168,27 @@ impl Parameter {
     }
 }
 
+/// Smaller numbers (dimensionless) count as zero. A motion scaled by it still has a square that keeps all its digits, and
+/// is a hundred orders of magnitude below what rounding leaves of one of the size of the gap.
+pub const NEGLIGIBLE: f64 = 1e-120;
+
 /// Ten dimensionless numbers that are finite and in range. The fields are read through [`Deref`]; there is no way
 /// to change one without passing [`Parameters::new`] again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameters(ParameterSet);
 
 impl Parameters {
-    /// Checks every number against its range.
+    /// Checks every number against its range. One too small to matter counts as zero: it would only make others so small
+    /// that they lose their digits.
     ///
     /// # Errors
     /// [`ModelError::NotFinite`] or [`ModelError::OutOfRange`] for the first number that fails.
-    pub fn new(set: ParameterSet) -> Result<Self, ModelError> {
+    pub fn new(mut set: ParameterSet) -> Result<Self, ModelError> {
         for parameter in Parameter::ALL {
+            let value = parameter.get_mut(&mut set);
+            if value.abs() < NEGLIGIBLE {
+                *value = 0.0;
+            }
             ModelError::check(parameter.field(), parameter.get(&set), parameter.range(), "")?;
         }
         Ok(Self(set))
@@ -218,6 +227,16 @@ mod tests {
             .expect_err("not a number")
             .to_string();
         assert_eq!(message, "omega is not a finite number: allowed are 0.1 to 500");
+    }
+
+    #[test]
+    fn numbers_too_small_to_matter_are_zero() {
+        let set =
+            ParameterSet { beta: 5e-324, alpha: 1e-130, c0: -1e-200, theta: 1e-110, ..Default::default() };
+        let valid = Parameters::new(set).expect("in range");
+        assert_eq!((valid.beta, valid.alpha, valid.c0, valid.theta), (0.0, 0.0, 0.0, 1e-110));
+        // Where zero is not allowed, neither is less than the smallest value.
+        assert!(Parameters::new(ParameterSet { c: 1e-200, ..Default::default() }).is_err());
     }
 
     #[test]

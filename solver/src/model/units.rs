@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{Device, ElectricalScaling};
 
-/// Standard gravity (m/s^2), the g in which accelerations of the base are given.
+/// Standard gravity (m/s^2), the g in which accelerations of the base are given, always by their peak.
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// The SI values of the dimensionless units of a device. Volts are volts.
@@ -50,12 +50,12 @@ impl Units {
         power * self.power
     }
 
-    /// Amplitude of the base's acceleration, beta omega^2 dimensionless, in g.
+    /// Peak of the base's acceleration, beta omega^2 dimensionless, in g.
     pub fn acceleration(&self, beta: f64, omega: f64) -> f64 {
         beta * omega * omega * self.length / (self.time * self.time * STANDARD_GRAVITY)
     }
 
-    /// The beta whose acceleration at `omega` is `acceleration` (g).
+    /// The beta whose acceleration at `omega` has the peak `acceleration` (g).
     pub fn beta_of(&self, acceleration: f64, omega: f64) -> f64 {
         acceleration * STANDARD_GRAVITY * self.time * self.time / (omega * omega * self.length)
     }

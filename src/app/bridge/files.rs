@@ -6,7 +6,7 @@ use wasm_bindgen::{JsCast as _, JsValue};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Url};
 
 use super::shell;
-use crate::app::sharing::Errand;
+use crate::app::sharing::{self, Errand};
 use crate::app::speaking::Words;
 use crate::app::text::Language;
 
@@ -127,10 +127,24 @@ fn open() -> Option<()> {
 }
 
 async fn read(file: web_sys::File) {
-    let bytes = wasm_bindgen_futures::JsFuture::from(file.array_buffer()).await;
-    let bytes = bytes.map(|buffer| js_sys::Uint8Array::new(&buffer).to_vec());
-    let bytes = bytes.map_err(|_| "the browser cannot read it".to_owned());
-    super::change(|app, _| app.open_file(&file.name(), bytes));
+    let contents = contents(&file).await;
+    super::change(|app, _| app.open_file(&file.name(), contents));
+}
+
+/// What a file holds. Its beginning is looked at first: what cannot be opened is not read.
+async fn contents(file: &web_sys::File) -> Result<Vec<u8>, String> {
+    let beginning = file.slice_with_f64_and_f64(0.0, sharing::FIRST as f64).map_err(|_| unreadable())?;
+    sharing::look(&file.name(), &bytes(&beginning).await?, file.size() as usize)?;
+    bytes(file).await
+}
+
+async fn bytes(blob: &Blob) -> Result<Vec<u8>, String> {
+    let buffer = wasm_bindgen_futures::JsFuture::from(blob.array_buffer()).await.map_err(|_| unreadable())?;
+    Ok(js_sys::Uint8Array::new(&buffer).to_vec())
+}
+
+fn unreadable() -> String {
+    "the browser cannot read it".to_owned()
 }
 
 /// Opens what was dropped on the page in this frame.
@@ -142,7 +156,7 @@ pub(super) fn take_dropped(context: &egui::Context) {
 }
 
 async fn read_dropped(file: DroppedFileHandle) {
-    let name = file.path().to_string_lossy().into_owned();
-    let bytes = file.bytes_async().await;
-    super::change(|app, _| app.open_file(&name, bytes));
+    if let Some(file) = file.web_file() {
+        read(file.clone()).await;
+    }
 }

@@ -7,7 +7,7 @@ use super::{fill_with, is_english, marked, tr};
 use crate::dynamics::motion::Motion;
 
 /// The sentences, the more special before the more general. A value may be another sentence.
-const SENTENCES: [&str; 109] = [
+const SENTENCES: [&str; 132] = [
     // Motions.
     marked("a start on the stable forced motion leads to another motion: {motion}, {volts} V rms"),
     marked("a start at rest leads to another motion: {motion}, {volts} V rms"),
@@ -143,8 +143,34 @@ const SENTENCES: [&str; 109] = [
     marked("not valid JSON: {problem}"),
     marked("not a name this page knows"),
     marked("this page knows version {version}"),
+    marked("it is UTF-16 text: save it as UTF-8"),
+    marked("it is no text: byte {place} is no character of one"),
+    marked("it is larger than {megabytes} MB"),
+    marked("line {line} is longer than {characters} characters"),
+    marked("it ends too early ({place})"),
+    marked("{path} is given twice"),
+    marked(
+        "{path}: a text of {length} characters stands where names and words are, which have at most {most}",
+    ),
     // The page's own.
     marked("There is no curve for this device."),
+    // What is wrong with an entry: after all others, because a place may hold anything.
+    marked("{field}: {problem}"),
+    marked("{count} values stand where {needed} is needed"),
+    marked("{given} stands where {needed} is needed"),
+    marked("unknown field {name}: known are {names}"),
+    marked("unknown field {name}: none is known here"),
+    marked("{name} is not available: allowed are {names}"),
+    marked("{name} is missing"),
+    marked("a number"),
+    marked("a whole number of at least 0"),
+    marked("a whole number"),
+    marked("a list of {count} values"),
+    marked("a list"),
+    marked("true or false"),
+    marked("a text in quotation marks"),
+    marked("an object in braces"),
+    marked("one of the names known here"),
 ];
 
 /// The class of a motion.

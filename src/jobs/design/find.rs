@@ -52,7 +52,7 @@ impl Variable {
 pub enum Objective {
     /// Mean power of the motion reached (W).
     Power,
-    /// The same over the square of the base's acceleration (W/g^2).
+    /// The same over the square of the peak of the base's acceleration (W/g^2).
     PowerPerG2,
     /// Root mean square of its voltage (V).
     Voltage,

@@ -19,7 +19,7 @@ pub struct Harvest {
     pub v_rms: f64,
     /// Mean power in the load (W), V^2/R_eq.
     pub power: f64,
-    /// The same over the square of the base's acceleration (W/g^2); `None` at rest.
+    /// The same over the square of the peak of the base's acceleration (W/g^2); `None` at rest.
     pub power_per_g2: Option<f64>,
     /// Lowest and highest tip displacement from equilibrium (mm).
     pub tip: (f64, f64),
@@ -86,7 +86,7 @@ pub struct Lasting {
 pub struct Operating {
     /// Excitation frequency (Hz).
     pub frequency: f64,
-    /// Amplitude of the base's acceleration (g).
+    /// Peak of the base's acceleration (g, of 9.80665 m/s^2).
     pub acceleration: f64,
     /// Load resistance (ohm); absent without a load.
     pub resistance: Option<f64>,

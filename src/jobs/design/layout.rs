@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::measured::MeasuredError;
+use crate::jobs::input;
 
 /// Lines that are looked at to find out how a file is written.
 const LOOKED_AT: usize = 100;
@@ -26,11 +27,51 @@ pub struct Layout {
     pub columns: usize,
 }
 
+/// Bytes at the beginning of a file by which it is judged before the rest is read.
+pub const FIRST: usize = 1 << 16;
+/// Longest line (bytes).
+const LONGEST_LINE: usize = 1 << 16;
+/// Largest file (MB): some three million rows.
+const LARGEST: usize = 64;
+
+/// Looks whether a file of `size` bytes, of which these are the `first`, can be measured data at all, so that what
+/// cannot need not be read.
+///
+/// # Errors
+/// [`MeasuredError::Large`], [`MeasuredError::Utf16`], [`MeasuredError::Binary`] and [`MeasuredError::LongLine`].
+pub fn look(first: &[u8], size: usize) -> Result<(), MeasuredError> {
+    let first = &first[..first.len().min(FIRST)];
+    if input::is_utf16(first) {
+        return Err(MeasuredError::Utf16);
+    }
+    // A form feed, the end mark of old systems and colours of a terminal do occur in texts.
+    let strange = |byte: &u8| *byte < b' ' && !b"\t\n\r\x0c\x1a\x1b".contains(byte);
+    if let Some(place) = first.iter().position(strange) {
+        return Err(MeasuredError::Binary { place: place + 1 });
+    }
+    if size > LARGEST << 20 {
+        return Err(MeasuredError::Large { megabytes: LARGEST });
+    }
+    if size > first.len() && first.len() >= LONGEST_LINE && !first.iter().any(|byte| b"\r\n".contains(byte)) {
+        return Err(MeasuredError::LongLine { line: 1, characters: LONGEST_LINE });
+    }
+    Ok(())
+}
+
 /// Finds out how `text` is written.
 ///
 /// # Errors
-/// [`MeasuredError::Empty`] and [`MeasuredError::NoNumbers`].
+/// [`MeasuredError::Empty`] and [`MeasuredError::NoNumbers`], those of [`look`], and [`MeasuredError::LongLine`] for any
+/// of its lines.
 pub fn detect(text: &[u8]) -> Result<Layout, MeasuredError> {
+    look(text, text.len())?;
+    let too_long = |line: &[u8]| line.len() > LONGEST_LINE;
+    if let Some(place) = text.split(|byte| b"\r\n".contains(byte)).position(too_long) {
+        // A line break of two bytes counts once.
+        let before = text.split(|byte| b"\r\n".contains(byte)).take(place).map(|line| line.len() + 1).sum();
+        let line = 1 + text[..before].iter().filter(|byte| **byte == b'\n').count();
+        return Err(MeasuredError::LongLine { line, characters: LONGEST_LINE });
+    }
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     let lines: Vec<String> = text
         .split(|byte| *byte == b'\n')

@@ -174,6 +174,9 @@ pub struct BestFrequency {
     pub stable: Option<Peak>,
     /// Of those that keep the limits.
     pub within_limits: Option<Peak>,
+    /// Whether branches were left out, or not followed to their ends, because it would take too long: there may be a
+    /// better one.
+    pub cut: bool,
 }
 
 /// The best frequency for a load of `resistance` (ohm) with omega in `window` (dimensionless), the base shaken
@@ -214,6 +217,7 @@ pub fn best_frequency(
     Ok(BestFrequency {
         resistance,
         linear: [plant.units.hertz(omega), power],
+        cut: curves.iter().any(|curve| curve.cut),
         within_limits: within.max_by(highest),
         stable: stable.max_by(highest),
     })

@@ -66,7 +66,7 @@ pub struct Threshold {
     pub beta: f64,
     /// Frequency (Hz).
     pub frequency: f64,
-    /// Amplitude of the base's acceleration (g).
+    /// Peak of the base's acceleration (g, of 9.80665 m/s^2).
     pub acceleration: f64,
 }
 

@@ -8,7 +8,7 @@ use std::io::Cursor;
 use csv::{ByteRecord, Reader, ReaderBuilder};
 use serde::{Deserialize, Serialize};
 
-pub use super::layout::{Layout, detect};
+pub use super::layout::{FIRST, Layout, detect, look};
 use super::layout::{number, quoted};
 
 /// Which columns are meant, counted from 0, and what turns their numbers into seconds or Hz, and volts.
@@ -37,6 +37,29 @@ pub enum MeasuredError {
     /// There is nothing in it.
     #[error("the file is empty")]
     Empty,
+    /// In an encoding that is not read.
+    #[error("it is UTF-16 text: save it as UTF-8")]
+    Utf16,
+    /// No text at all.
+    #[error("it is no text: byte {place} is no character of one")]
+    Binary {
+        /// Which byte, from 1.
+        place: usize,
+    },
+    /// Too much to hold.
+    #[error("it is larger than {megabytes} MB")]
+    Large {
+        /// What is allowed (MB).
+        megabytes: usize,
+    },
+    /// No line of a table is so long.
+    #[error("line {line} is longer than {characters} characters")]
+    LongLine {
+        /// Line.
+        line: usize,
+        /// What is allowed.
+        characters: usize,
+    },
     /// No two columns of numbers.
     #[error("no row with at least two numbers in the first {lines} lines; line 1 is \"{first}\"")]
     NoNumbers {

@@ -17,7 +17,7 @@ pub struct HarvestPoint {
     pub v_peak: f64,
     /// Mean power in the load (W).
     pub power: f64,
-    /// The same over the square of the base's acceleration there (W/g^2).
+    /// The same over the square of the peak of the base's acceleration there (W/g^2).
     pub power_per_g2: f64,
     /// Lowest and highest tip displacement (mm).
     pub tip: (f64, f64),

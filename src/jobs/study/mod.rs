@@ -1,5 +1,9 @@
 //! Studies: questions too large for a frame, cut into pieces of [`Work`] that may be done anywhere and in any order.
 
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+use super::budget::Budget;
 use super::parallel;
 use super::work::{Finding, Work};
 
@@ -42,8 +46,14 @@ pub trait Study {
 }
 
 /// Carries out a whole study: natively on all cores, in the browser one piece after the other.
-pub fn complete(study: &mut impl Study) {
-    while !study.finished() {
+pub fn complete(study: &mut (impl Study + Send)) {
+    complete_within(study, &Budget::default());
+}
+
+/// The same as far as `budget` goes. Findings are taken in the order in which the pieces were handed out, so that the
+/// same study always ends the same, and each as soon as it can be.
+pub fn complete_within(study: &mut (impl Study + Send), budget: &Budget<'_>) {
+    while !study.finished() && !budget.is_spent() {
         let mut pieces = Vec::new();
         while pieces.len() < BATCH
             && let Some(piece) = study.next()
@@ -53,10 +63,44 @@ pub fn complete(study: &mut impl Study) {
         if pieces.is_empty() {
             return;
         }
-        let found = parallel::map(&pieces, |(ticket, work)| (*ticket, work.carry_out()));
-        for (ticket, finding) in found {
+        let places: Vec<usize> = (0..pieces.len()).collect();
+        let arrivals = Mutex::new(Arrivals { study: &mut *study, early: BTreeMap::new(), due: 0 });
+        parallel::map(&places, |place| {
+            let (ticket, work) = &pieces[*place];
+            let Some(finding) = budget.piece(|| work.carry_out()) else { return };
+            if let Ok(mut arrivals) = arrivals.lock() {
+                budget.report(arrivals.add(*place, (*ticket, finding)));
+            }
+        });
+        // Those behind a piece that was not begun.
+        let early = arrivals.into_inner().map_or_else(|_| BTreeMap::new(), |arrivals| arrivals.early);
+        for (ticket, finding) in early.into_values() {
             study.take(ticket, finding);
         }
+    }
+}
+
+/// A ticket and what was found for it.
+type Arrival = (usize, Result<Finding, String>);
+
+/// Findings on their way to a study.
+struct Arrivals<'a, S> {
+    study: &'a mut S,
+    /// Those whose turn has not come, by their places.
+    early: BTreeMap<usize, Arrival>,
+    /// The place whose turn it is.
+    due: usize,
+}
+
+impl<S: Study> Arrivals<'_, S> {
+    /// Lets the study take what can be taken now; its done part.
+    fn add(&mut self, place: usize, arrival: Arrival) -> f64 {
+        self.early.insert(place, arrival);
+        while let Some((ticket, finding)) = self.early.remove(&self.due) {
+            self.study.take(ticket, finding);
+            self.due += 1;
+        }
+        self.study.progress()
     }
 }
 

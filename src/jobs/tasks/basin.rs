@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{Answer, check_ends, class, count, state};
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::study::basin::{Attractor, Basin, BasinQuestion};
-use crate::jobs::study::complete;
+use crate::jobs::study::complete_within;
 use crate::jobs::study::motion_chart::{Coordinate, SIZES};
 use crate::model::{ModelError, ParameterSet, state_dimension};
 use crate::scenario::{END_TIME, ModelChoice, Scenario};
@@ -112,7 +113,7 @@ impl BasinRequest {
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range, or a part of the plane cannot be computed.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         if let Some(t_end) = self.t_end {
             ModelError::check("t_end", t_end, END_TIME, "")?;
         }
@@ -132,7 +133,7 @@ impl BasinRequest {
             question.size.1 = side.count.unwrap_or(both);
         }
         let mut basin = Basin::new(question)?;
-        complete(&mut basin);
+        complete_within(&mut basin, budget);
         if let Some(message) = basin.chart().failure() {
             return Err(RequestError::Study(message.to_owned()));
         }

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Answer, count};
 use crate::dynamics::{Instability, OrbitError, ResonanceBoundary, resonance_boundary};
-use crate::jobs::{RequestError, parallel};
+use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem};
 use crate::scenario::ModelChoice;
 use crate::theory::{CoupledModes, Published, Resonance, TheoryError};
@@ -83,7 +84,7 @@ impl BoundaryRequest {
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range or a theory has no answer.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         let most = if self.theory == Theory::Floquet { MOST_FLOQUET } else { MOST_CLOSED };
         count("numbers in omega", self.omega.len(), (0, most))?;
         for omega in &self.omega {
@@ -102,29 +103,34 @@ impl BoundaryRequest {
                 let theory = CoupledModes::new(&system)?;
                 closed(omegas.map(|omega| theory.boundary(resonance, *omega)).collect())
             }
-            Theory::Floquet => self.by_multipliers(&system)?,
+            Theory::Floquet => self.by_multipliers(&system, budget)?,
         }))
     }
 
     /// Where the resonance makes the forced motion unstable; other losses of stability are passed. What fails at one
     /// frequency is told there.
-    fn by_multipliers(&self, system: &ReducedSystem) -> Result<BoundaryAnswer, RequestError> {
+    fn by_multipliers(
+        &self,
+        system: &ReducedSystem,
+        budget: &Budget<'_>,
+    ) -> Result<BoundaryAnswer, RequestError> {
         let (found, needed) = (system.modes.len(), self.resonance.pair().1 + 1);
         if found < needed {
             return Err(TheoryError::TooFewModes { found }.into());
         }
-        let found: Vec<Result<ResonanceBoundary, OrbitError>> = parallel::map(&self.omega, |omega| {
-            resonance_boundary(system, *omega, self.limit, self.resonance)
-        });
-        let known = || found.iter().map(|boundary| boundary.as_ref().ok());
+        let found: Vec<Option<Result<ResonanceBoundary, OrbitError>>> =
+            budget.map(&self.omega, |omega| resonance_boundary(system, *omega, self.limit, self.resonance));
+        let known = || found.iter().map(|boundary| boundary.as_ref()?.as_ref().ok());
         let first = |boundary: &ResonanceBoundary| {
             boundary.first.map(|loss| FirstLoss { beta: loss.beta, kind: loss.instability })
         };
+        let failed =
+            |boundary: &Option<Result<_, OrbitError>>| Some(boundary.as_ref()?.as_ref().err()?.to_string());
         Ok(BoundaryAnswer {
             beta: known().map(|boundary| boundary?.beta).collect(),
             first: Some(known().map(|boundary| first(boundary?)).collect()),
             ends: Some(known().map(|boundary| boundary?.ends).collect()),
-            failed: Some(found.iter().map(|boundary| Some(boundary.as_ref().err()?.to_string())).collect()),
+            failed: Some(found.iter().map(failed).collect()),
         })
     }
 }

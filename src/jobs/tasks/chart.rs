@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::{Answer, Span, class, state};
 use crate::dynamics::motion::Cell;
 use crate::jobs::RequestError;
-use crate::jobs::study::complete;
+use crate::jobs::budget::Budget;
+use crate::jobs::study::complete_within;
 use crate::jobs::study::motion_chart::{Coordinate, MotionChart, MotionQuestion, SIZES};
 use crate::jobs::study::multiplier_chart::{self, MultiplierChart, MultiplierQuestion};
 use crate::model::{ModelError, Parameter, ParameterSet};
@@ -82,7 +83,7 @@ impl ChartRequest {
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range, or a part of the chart cannot be computed.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         let multipliers = self.quantity == Quantity::Multiplier;
         let most = if multipliers { multiplier_chart::SIZES.1 } else { SIZES.1 };
         self.omega.check(Parameter::Omega, most)?;
@@ -96,19 +97,23 @@ impl ChartRequest {
             initial: self.initial.clone(),
             ..Scenario::default()
         };
-        Ok(Answer::Chart(if multipliers { self.multipliers(scenario)? } else { self.motions(scenario)? }))
+        Ok(Answer::Chart(if multipliers {
+            self.multipliers(scenario, budget)?
+        } else {
+            self.motions(scenario, budget)?
+        }))
     }
 
     fn size(&self) -> (usize, usize) {
         (self.omega.count, self.beta.count)
     }
 
-    fn multipliers(&self, scenario: Scenario) -> Result<ChartAnswer, RequestError> {
+    fn multipliers(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<ChartAnswer, RequestError> {
         let (omega, beta) = (self.omega.range(), self.beta.range());
         let question = MultiplierQuestion { scenario, omega, beta, size: self.size() };
         question.validate()?;
         let mut chart = MultiplierChart::new(question);
-        complete(&mut chart);
+        complete_within(&mut chart, budget);
         if let Some(message) = chart.failure() {
             return Err(RequestError::Study(message.to_owned()));
         }
@@ -122,7 +127,7 @@ impl ChartRequest {
         })
     }
 
-    fn motions(&self, scenario: Scenario) -> Result<ChartAnswer, RequestError> {
+    fn motions(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<ChartAnswer, RequestError> {
         let question = MotionQuestion {
             scenario,
             x: (Coordinate::Parameter(Parameter::Omega), self.omega.range()),
@@ -131,7 +136,7 @@ impl ChartRequest {
         };
         question.validate()?;
         let mut chart = MotionChart::new(question);
-        complete(&mut chart);
+        complete_within(&mut chart, budget);
         if let Some(message) = chart.failure() {
             return Err(RequestError::Study(message.to_owned()));
         }

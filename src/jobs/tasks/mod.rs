@@ -10,6 +10,7 @@ pub mod basin;
 pub mod boundary;
 pub mod chart;
 pub mod design;
+pub mod device;
 pub mod modes;
 pub mod orbit;
 pub mod simulate;

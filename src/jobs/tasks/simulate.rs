@@ -1,13 +1,17 @@
 //! Simulate requests, by either integrator.
 
+use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::{Answer, count};
-use crate::dynamics::rk4::RungeKutta4;
+use crate::dynamics::collocation::Step;
+use crate::dynamics::rk4::{RungeKutta4, amplification};
 use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::model::{ModelError, ParameterSet, ReducedSystem};
 use crate::scenario::ModelChoice;
+use crate::theory::CoupledModes;
 
 const TOLERANCES: (f64, f64) = (1e-10, 1e-2);
 const STEPS_PER_PERIOD: (f64, f64) = (10.0, 1e6);
@@ -15,6 +19,8 @@ const STEPS_PER_PERIOD: (f64, f64) = (10.0, 1e6);
 const MOST_STEPS: f64 = 2e9;
 const SAMPLES: (usize, usize) = (2, 200_000);
 const END_TIME: (f64, f64) = (1e-6, 20_000.0);
+/// Steps after which the budget is looked at.
+const PIECE: usize = 1 << 14;
 
 /// A run in time.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -70,13 +76,19 @@ pub struct SimulateAnswer {
     pub t: Vec<f64>,
     /// One row (q_1..q_N, dq_1/dt..dq_N/dt, v) a time.
     pub state: Vec<Vec<f64>>,
-    /// "completed", "escaped" or "contact".
+    /// "completed", "escaped" or "contact"; "unstable_steps" when it ended because the steps of `rk4` are too long for it,
+    /// so that the numbers grow by themselves; "unfinished" when the budget was spent.
     pub outcome: &'static str,
     /// Time at which the run ended.
     pub t_outcome: f64,
     /// Integration steps done.
     pub steps: u64,
 }
+
+/// When the steps of a method without error control are too long.
+const UNSTABLE: &str = "unstable_steps";
+/// When the budget ends before the run.
+const UNFINISHED: &str = "unfinished";
 
 /// The word for an outcome.
 fn word(outcome: Outcome) -> &'static str {
@@ -92,7 +104,7 @@ impl SimulateRequest {
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range or the motion cannot be integrated.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         let t_end = ModelError::check("t_end", self.t_end, END_TIME, "")?;
         ModelError::check("tolerance", self.tolerance, TOLERANCES, "")?;
         ModelError::check("steps_per_period", f64::from(self.steps_per_period), STEPS_PER_PERIOD, "")?;
@@ -100,59 +112,100 @@ impl SimulateRequest {
         let system = self.model.system(self.parameters)?;
         let initial = self.initial.clone().unwrap_or_else(|| vec![0.0; system.dimension()]);
         let answer = match self.method {
-            Method::Adaptive => self.adaptive(&system, &initial)?,
+            Method::Adaptive => self.adaptive(&system, &initial, budget)?,
             Method::Rk4 => {
                 let limit = MOST_STEPS * system.parameters.period() / f64::from(self.steps_per_period);
                 ModelError::check("t_end", t_end, (END_TIME.0, limit), "")?;
-                self.classical(&system, &initial)?
+                self.classical(&system, &initial, budget)?
             }
         };
         Ok(Answer::Simulate(answer))
     }
 
-    fn adaptive(&self, system: &ReducedSystem, initial: &[f64]) -> Result<SimulateAnswer, IntegrationError> {
+    fn adaptive(
+        &self,
+        system: &ReducedSystem,
+        initial: &[f64],
+        budget: &Budget<'_>,
+    ) -> Result<SimulateAnswer, IntegrationError> {
         let mut integrator = Collocation::new(system, initial, Settings { tolerance: self.tolerance })?;
         let mut trajectory = Trajectory::recorder(&integrator);
-        let outcome = loop {
-            let steps = integrator.advance(self.t_end, usize::MAX, &mut |step| trajectory.record(step))?;
-            if let Some(outcome) = steps {
-                break outcome;
-            }
-        };
-        trajectory.finish(&integrator, outcome);
+        let mut end = None;
+        while end.is_none() {
+            let mut record = |step: &Step<'_>| trajectory.record(step);
+            let Some(piece) = budget.piece(|| integrator.advance(self.t_end, PIECE, &mut record)) else {
+                break;
+            };
+            end = piece?;
+            budget.report(integrator.time() / self.t_end);
+        }
+        trajectory.finish(&integrator, end.unwrap_or(Outcome::Completed));
         let t = self.sample_times(trajectory.end_time());
         let mut state = Vec::with_capacity(t.len());
         trajectory.read_at(&t, |_, values| state.push(values.to_vec()));
         let t_outcome = trajectory.end_time();
-        Ok(SimulateAnswer { t, state, outcome: word(outcome), t_outcome, steps: integrator.steps() })
+        let outcome = end.map_or(UNFINISHED, word);
+        Ok(SimulateAnswer { t, state, outcome, t_outcome, steps: integrator.steps() })
     }
 
     /// Samples are given at the grid point nearest to their time: the method has no dense output.
-    fn classical(&self, system: &ReducedSystem, initial: &[f64]) -> Result<SimulateAnswer, IntegrationError> {
+    fn classical(
+        &self,
+        system: &ReducedSystem,
+        initial: &[f64],
+        budget: &Budget<'_>,
+    ) -> Result<SimulateAnswer, RequestError> {
         let mut run = RungeKutta4::new(system, initial, self.steps_per_period)?;
         let length = run.step_length();
         let last = (self.t_end / length).round() as u64;
         let mut due = self.sample_times(self.t_end).into_iter().map(|t| (t / length).round() as u64);
         let mut next = due.next();
         let (mut t, mut state) = (Vec::new(), Vec::new());
-        let mut outcome = Outcome::Completed;
-        loop {
-            while next.is_some_and(|step| step <= run.steps()) {
-                t.push(run.time());
-                state.push(run.state().to_vec());
-                next = due.next();
+        // Whether the run is over, and with which outcome.
+        let mut piece = || {
+            for _ in 0..PIECE {
+                while next.is_some_and(|step| step <= run.steps()) {
+                    t.push(run.time());
+                    state.push(run.state().to_vec());
+                    next = due.next();
+                }
+                if run.steps() >= last {
+                    return Some(Outcome::Completed);
+                }
+                if let Some(early) = run.step() {
+                    // Beyond all bounds there is no state to show.
+                    if run.state().iter().all(|value| value.is_finite()) {
+                        t.push(run.time());
+                        state.push(run.state().to_vec());
+                    }
+                    return Some(early);
+                }
             }
-            if run.steps() >= last {
-                break;
+            None
+        };
+        let mut done = 0;
+        let end = loop {
+            match budget.piece(&mut piece) {
+                Some(None) => done += PIECE,
+                Some(end) => break end,
+                None => break None,
             }
-            if let Some(early) = run.step() {
-                outcome = early;
-                t.push(run.time());
-                state.push(run.state().to_vec());
-                break;
-            }
+            budget.report(done as f64 / last as f64);
+        };
+        if end.is_none() {
+            t.push(run.time());
+            state.push(run.state().to_vec());
         }
-        Ok(SimulateAnswer { t, state, outcome: word(outcome), t_outcome: run.time(), steps: run.steps() })
+        let outcome = match end {
+            None => UNFINISHED,
+            Some(Outcome::Completed) => word(Outcome::Completed),
+            Some(early) => {
+                let linear = CoupledModes::new(system)?;
+                let grows = |rate: &Complex<f64>| rate.re <= 0.0 && amplification(rate * length) > 1.0 + 1e-9;
+                if linear.eigenvalues().iter().any(grows) { UNSTABLE } else { word(early) }
+            }
+        };
+        Ok(SimulateAnswer { t, state, outcome, t_outcome: run.time(), steps: run.steps() })
     }
 
     /// The times of the samples that a run ending at `end` reaches, and last `end` itself.

@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::{Answer, check_ends, count, state};
 use crate::dynamics::sweep::{Dwell, SweepPoint};
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::response::{ResponseCurve, response};
-use crate::jobs::study::complete;
+use crate::jobs::study::complete_within;
 use crate::jobs::study::sweep::{COUNTS, Direction, SweepQuestion, SweepStudy};
 use crate::model::{Parameter, ParameterSet, Shaking};
 use crate::scenario::{ModelChoice, Scenario};
@@ -77,7 +78,7 @@ impl SweepRequest {
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range or a motion cannot be integrated.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         let range = (self.from, self.to);
         check_ends(self.parameter.field(), range, self.parameter.range())?;
         count("count", self.count, COUNTS)?;
@@ -101,14 +102,20 @@ impl SweepRequest {
         };
         question.validate()?;
         let mut sweep = SweepStudy::new(question, &[self.direction]);
-        complete(&mut sweep);
+        complete_within(&mut sweep, budget);
         if let Some(message) = sweep.failure() {
             return Err(RequestError::Study(message.to_owned()));
         }
         let branches = self
             .branches
-            .then(|| response(&scenario, (self.parameter, Shaking::Amplitude), range))
+            .then(|| budget.piece(|| response(&scenario, (self.parameter, Shaking::Amplitude), range)))
+            .flatten()
             .transpose()?;
+        let cut = branches.iter().flatten().any(|branch| branch.cut);
+        if cut {
+            budget
+                .lacks("the branches were not followed to their ends, which would take too long".to_owned());
+        }
         Ok(Answer::Sweep(SweepAnswer { points: sweep.points(self.direction).to_vec(), branches }))
     }
 }

@@ -4,7 +4,7 @@ use super::Context;
 use crate::app::command::Command;
 use crate::app::text::tr;
 use crate::model::materials::Ceramic;
-use crate::model::{Device, ElectricalScaling, Parameter};
+use crate::model::{Device, ElectricalScaling, Parameter, STANDARD_GRAVITY};
 
 /// A steel beam of 60 mm with a ceramic patch and small neodymium magnets, shaken at 0.2 g near its first resonance
 /// into its best load there.
@@ -22,7 +22,7 @@ const STEEL_BEAM: Device = Device {
     youngs_modulus: 200e9,
     second_moment: 2.25e-14,
     viscosity: 8.2e6,
-    gravity: 9.8067,
+    gravity: STANDARD_GRAVITY,
     capacitance: 13e-9,
     resistance: 18e3,
     coupling: 25e-6,

@@ -4,9 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::failed;
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::design::find::{Evaluation, FindQuestion, Objective, Variable};
 use crate::jobs::motions::Coordinate;
-use crate::jobs::study::complete;
+use crate::jobs::study::complete_within;
 use crate::jobs::study::find::FindStudy;
 use crate::model::{Device, Limits, ParameterSet};
 use crate::scenario::Scenario;
@@ -72,7 +73,7 @@ impl FindTask {
         20
     }
 
-    pub(super) fn answer(&self, scenario: Scenario) -> Result<FindAnswer, RequestError> {
+    pub(super) fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<FindAnswer, RequestError> {
         let variable = |named: &Named| {
             let coordinate = Coordinate::named(&named.name, scenario.model.modes).ok_or_else(|| {
                 let problem = "allowed are the ten numbers and the device's dimensions".to_owned();
@@ -89,7 +90,7 @@ impl FindTask {
         let variables = self.variables.iter().map(variable).collect::<Result<_, RequestError>>()?;
         let question = FindQuestion { scenario, variables, objective: self.objective, limits: self.limits };
         let mut study = FindStudy::new(question, self.generations, self.seed)?;
-        complete(&mut study);
+        complete_within(&mut study, budget);
         failed(study.failure())?;
         let missing = || RequestError::Study("no candidate was evaluated".to_owned());
         let best = study.best().ok_or_else(missing)?;

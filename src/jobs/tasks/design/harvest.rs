@@ -5,13 +5,15 @@ use serde::{Deserialize, Serialize};
 use super::failed;
 use crate::dynamics::sweep::Dwell;
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::design::band::{half_power, total, usable};
 use crate::jobs::design::linear::LinearCurve;
 use crate::jobs::design::point::powers;
 use crate::jobs::design::{Bounds, HarvestPoint, Interval, Operating, Plant, operating};
-use crate::jobs::study::complete;
+use crate::jobs::study::complete_within;
 use crate::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
 use crate::jobs::study::sweep::Direction;
+use crate::jobs::tasks::device::ACCELERATION_UNIT;
 use crate::model::{Limits, ModelError, Shaking};
 use crate::scenario::Scenario;
 
@@ -63,6 +65,8 @@ impl Hertz {
 /// What the device harvests.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HarvestAnswer {
+    /// What the acceleration counts in.
+    pub acceleration_unit: &'static str,
     /// At its own excitation.
     #[serde(flatten)]
     pub operating: Operating,
@@ -120,17 +124,26 @@ pub struct Band {
 }
 
 impl HarvestTask {
-    pub(super) fn answer(&self, scenario: Scenario) -> Result<HarvestAnswer, RequestError> {
+    pub(super) fn answer(
+        &self,
+        scenario: Scenario,
+        budget: &Budget<'_>,
+    ) -> Result<HarvestAnswer, RequestError> {
         if let Some(least) = self.least {
             ModelError::check("least", least, (0.0, 1e6), " W")?;
         }
         self.limits.validate()?;
         let operating = operating(&scenario)?;
-        let curves = self.frequency.map(|frequency| self.curves(scenario, frequency)).transpose()?;
-        Ok(HarvestAnswer { operating, curves })
+        let curves = self.frequency.map(|frequency| self.curves(scenario, frequency, budget)).transpose()?;
+        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, curves })
     }
 
-    fn curves(&self, scenario: Scenario, frequency: Hertz) -> Result<Curves, RequestError> {
+    fn curves(
+        &self,
+        scenario: Scenario,
+        frequency: Hertz,
+        budget: &Budget<'_>,
+    ) -> Result<Curves, RequestError> {
         let plant = Plant::new(&scenario)?;
         let window = frequency.window(&plant)?;
         let bounds = Bounds::new(&plant, self.limits.completed(&scenario.base()))?;
@@ -142,9 +155,13 @@ impl HarvestTask {
             count: frequency.count,
             dwell,
         })?;
-        complete(&mut study);
+        complete_within(&mut study, budget);
         failed(study.failure())?;
         let branches = study.branches().and_then(Result::ok).unwrap_or_default();
+        if branches.iter().any(|branch| branch.cut) {
+            budget
+                .lacks("the branches were not followed to their ends, which would take too long".to_owned());
+        }
         let branch = |curve| {
             let (points, stable) = study.branch_points(curve).into_iter().unzip();
             BranchCurve { periods: curve.periods, points, stable }

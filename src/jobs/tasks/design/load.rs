@@ -5,9 +5,10 @@ use serde::{Deserialize, Serialize};
 use super::failed;
 use super::harvest::Hertz;
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::design::load::{BestFrequency, LoadPoint, best};
 use crate::jobs::design::{Bounds, Plant};
-use crate::jobs::study::complete;
+use crate::jobs::study::complete_within;
 use crate::jobs::study::load::{LoadQuestion, LoadStudy};
 use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
@@ -67,7 +68,7 @@ pub struct LoadAnswer {
 }
 
 impl LoadTask {
-    pub(super) fn answer(&self, scenario: Scenario) -> Result<LoadAnswer, RequestError> {
+    pub(super) fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<LoadAnswer, RequestError> {
         self.limits.validate()?;
         let plant = Plant::new(&scenario)?;
         let window = self.window.map(|window| window.window(&plant)).transpose()?;
@@ -87,8 +88,16 @@ impl LoadTask {
             limits,
             ..about
         })?;
-        complete(&mut study);
+        complete_within(&mut study, budget);
         failed(study.failure())?;
+        let cut = study.best_frequencies().iter().flatten().filter(|best| best.cut).count();
+        if cut > 0 {
+            let count = study.best_frequencies().len();
+            budget.lacks(format!(
+                "under {cut} of {count} loads the branches were not followed to their ends, which would take too long \
+                 (\"cut\"): a better frequency may be among the rest; a narrower window shows more of them"
+            ));
+        }
         let reached = || study.reached().iter().flatten().copied();
         Ok(LoadAnswer {
             linear: study.linear().to_vec(),

@@ -4,9 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::failed;
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::design::find::{Evaluation, FindQuestion, Objective, Variable};
 use crate::jobs::motions::Coordinate;
-use crate::jobs::study::complete;
+use crate::jobs::study::complete_within;
 use crate::jobs::study::map::DesignMap;
 use crate::jobs::tasks::count;
 use crate::model::Limits;
@@ -97,14 +98,14 @@ impl MapTask {
         Objective::Power
     }
 
-    pub(super) fn answer(&self, scenario: Scenario) -> Result<MapAnswer, RequestError> {
+    pub(super) fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<MapAnswer, RequestError> {
         let (columns, rows) = (self.x.count, self.y.count);
         count("cells of the map", columns.saturating_mul(rows), CELLS)?;
         let modes = scenario.model.modes;
         let variables = vec![self.x.variable("x", modes)?, self.y.variable("y", modes)?];
         let question = FindQuestion { scenario, variables, objective: self.objective, limits: self.limits };
         let mut map = DesignMap::new(question, (columns, rows))?;
-        complete(&mut map);
+        complete_within(&mut map, budget);
         failed(map.failure())?;
         let table = |part: &dyn Fn(&Evaluation) -> Option<f64>| {
             let row = |row| (0..columns).map(|column| map.cell((column, row)).and_then(part)).collect();

@@ -4,9 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::dynamics::tongue::Window;
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::design::materials::MaterialRow;
-use crate::jobs::study::complete;
+use crate::jobs::study::complete_within;
 use crate::jobs::study::table::Table;
+use crate::jobs::tasks::device::ACCELERATION_UNIT;
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
 
@@ -31,6 +33,8 @@ impl Default for MaterialsTask {
 /// The ceramics side by side.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MaterialsAnswer {
+    /// What the accelerations of the thresholds count in.
+    pub acceleration_unit: &'static str,
     /// One a row of Table 2.
     pub rows: Vec<NamedRow>,
 }
@@ -50,9 +54,13 @@ pub struct NamedRow {
 }
 
 impl MaterialsTask {
-    pub(super) fn answer(&self, scenario: &Scenario) -> Result<MaterialsAnswer, RequestError> {
+    pub(super) fn answer(
+        &self,
+        scenario: &Scenario,
+        budget: &Budget<'_>,
+    ) -> Result<MaterialsAnswer, RequestError> {
         let mut table = Table::materials(scenario, self.mode, self.resonance, self.window);
-        complete(&mut table);
+        complete_within(&mut table, budget);
         let rows = table.material_rows().flatten().map(|row| {
             let row = row.map_err(|message| RequestError::Study(message.to_owned()))?.clone();
             let material = row.ceramic.material();
@@ -63,6 +71,7 @@ impl MaterialsTask {
                 row,
             })
         });
-        Ok(MaterialsAnswer { rows: rows.collect::<Result<_, RequestError>>()? })
+        let rows = rows.collect::<Result<_, RequestError>>()?;
+        Ok(MaterialsAnswer { acceleration_unit: ACCELERATION_UNIT, rows })
     }
 }

@@ -1,12 +1,14 @@
-//! The requests of the design bench: they share what describes the device, in the ten numbers or in SI units.
+//! The requests of the design bench: they share the device, its model, start and duration.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::Answer;
+use super::device::Described;
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::request::read;
-use crate::model::{Device, ElectricalScaling, Limits, ModelError, ParameterSet};
+use crate::model::{Limits, ModelError};
 use crate::scenario::{ModelChoice, Scenario};
 
 mod find;
@@ -25,18 +27,19 @@ pub use map::{MapAnswer, MapTask};
 pub use materials::{MaterialsAnswer, MaterialsTask};
 pub use trust::{TrustAnswer, TrustTask};
 
-/// The device that a request of the bench is about.
+/// What a request of the bench is about: a device with its model, start and duration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Subject {
+    /// The device.
+    pub device: Described,
+    /// How it is looked at.
+    pub view: Looked,
+}
+
+/// Model, start and duration of a request of the bench.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Subject {
-    /// The ten numbers. Absent, they are those of `device`, or else the paper's.
-    pub parameters: Option<ParameterSet>,
-    /// The device in SI units, missing dimensions as in Table 1. Beside `parameters` it says only what they leave open.
-    pub device: Option<Device>,
-    /// How its circuit is scaled.
-    pub scaling: ElectricalScaling,
-    /// Amplitude of the base's acceleration (g), instead of that of its motion.
-    pub acceleration: Option<f64>,
+pub struct Looked {
     /// Modes and force law.
     pub model: ModelChoice,
     /// State at time 0, length 2N + 1; rest when absent.
@@ -45,23 +48,15 @@ pub struct Subject {
     pub t_end: f64,
 }
 
-impl Default for Subject {
+impl Default for Looked {
     fn default() -> Self {
         let Scenario { model, t_end, .. } = Scenario::default();
-        Self {
-            parameters: None,
-            device: None,
-            scaling: ElectricalScaling::default(),
-            acceleration: None,
-            model,
-            initial: None,
-            t_end,
-        }
+        Self { model, initial: None, t_end }
     }
 }
 
-/// Names of the fields of [`Subject`].
-const SUBJECT: [&str; 7] = ["parameters", "device", "scaling", "acceleration", "model", "initial", "t_end"];
+/// Names of the fields of [`Looked`].
+const LOOKED: [&str; 3] = ["model", "initial", "t_end"];
 
 impl Subject {
     /// The scenario, checked.
@@ -69,23 +64,9 @@ impl Subject {
     /// # Errors
     /// [`ModelError`] naming what is out of range.
     pub fn scenario(&self) -> Result<Scenario, ModelError> {
-        let mut scenario = Scenario {
-            model: self.model,
-            initial: self.initial.clone(),
-            t_end: self.t_end,
-            scaling: self.scaling,
-            ..Scenario::default()
-        };
-        match (self.parameters, self.device) {
-            (Some(parameters), device) => (scenario.parameters, scenario.device) = (parameters, device),
-            (None, Some(device)) => scenario.set_device(device, self.scaling)?,
-            (None, None) => {}
-        }
-        if let Some(acceleration) = self.acceleration {
-            ModelError::check("acceleration", acceleration, (0.0, 1e6), " g")?;
-            let omega = ModelError::check("omega", scenario.parameters.omega, (1e-9, 1e9), "")?;
-            scenario.parameters.beta = scenario.units().beta_of(acceleration, omega);
-        }
+        let Looked { model, initial, t_end } = self.view.clone();
+        let mut scenario = Scenario { model, initial, t_end, ..Scenario::default() };
+        self.device.put_into(&mut scenario)?;
         scenario.validate()?;
         Ok(scenario)
     }
@@ -140,16 +121,17 @@ pub enum DesignAnswer {
 }
 
 impl DesignRequest {
-    /// Reads the fields of a request for `task`; `None` when the bench has no such task.
+    /// Reads the fields of a request for `task` about `device`; `None` when the bench has no such task.
     ///
     /// # Errors
     /// [`RequestError`] for the first field that is wrong.
     pub(in crate::jobs) fn read(
         task: &str,
+        device: Described,
         fields: &Map<String, Value>,
     ) -> Result<Option<Self>, RequestError> {
         let part = |wanted: bool| {
-            let chosen = fields.iter().filter(|(name, _)| SUBJECT.contains(&name.as_str()) == wanted);
+            let chosen = fields.iter().filter(|(name, _)| LOOKED.contains(&name.as_str()) == wanted);
             Value::Object(chosen.map(|(name, value)| (name.clone(), value.clone())).collect())
         };
         let own = part(false);
@@ -163,23 +145,23 @@ impl DesignRequest {
             "map" => Task::Map(read(own)?),
             _ => return Ok(None),
         };
-        Ok(Some(Self { subject: read(part(true))?, task }))
+        Ok(Some(Self { subject: Subject { device, view: read(part(true))? }, task }))
     }
 
     /// Computes the answer.
     ///
     /// # Errors
     /// [`RequestError`] when a number is out of range or the question has no answer.
-    pub fn answer(&self) -> Result<Answer, RequestError> {
+    pub fn answer(&self, budget: &Budget<'_>) -> Result<Answer, RequestError> {
         let scenario = self.subject.scenario()?;
         let answer = match &self.task {
-            Task::Harvest(task) => DesignAnswer::Harvest(Box::new(task.answer(scenario)?)),
-            Task::Load(task) => DesignAnswer::Load(task.answer(scenario)?),
-            Task::Materials(task) => DesignAnswer::Materials(task.answer(&scenario)?),
+            Task::Harvest(task) => DesignAnswer::Harvest(Box::new(task.answer(scenario, budget)?)),
+            Task::Load(task) => DesignAnswer::Load(task.answer(scenario, budget)?),
+            Task::Materials(task) => DesignAnswer::Materials(task.answer(&scenario, budget)?),
             Task::Limits(limits) => DesignAnswer::Limits(LimitsAnswer::new(*limits, &scenario)?),
-            Task::Trust(task) => DesignAnswer::Trust(task.answer(&scenario)?),
-            Task::Find(task) => DesignAnswer::Find(Box::new(task.answer(scenario)?)),
-            Task::Map(task) => DesignAnswer::Map(task.answer(scenario)?),
+            Task::Trust(task) => DesignAnswer::Trust(task.answer(&scenario, budget)?),
+            Task::Find(task) => DesignAnswer::Find(Box::new(task.answer(scenario, budget)?)),
+            Task::Map(task) => DesignAnswer::Map(task.answer(scenario, budget)?),
         };
         Ok(Answer::Design(answer))
     }

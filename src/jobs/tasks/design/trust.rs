@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::jobs::RequestError;
+use crate::jobs::budget::Budget;
 use crate::jobs::design::Plant;
 use crate::jobs::design::harvest::lasting;
 use crate::jobs::design::trust::{LAWS, LawError, Quantity, TrustEntry, law_error};
-use crate::jobs::study::complete;
+use crate::jobs::study::complete_within;
 use crate::jobs::study::table::Table;
 use crate::model::ForceLaw;
 use crate::scenario::Scenario;
@@ -47,7 +48,11 @@ pub struct LawErrors {
 }
 
 impl TrustTask {
-    pub(super) fn answer(&self, scenario: &Scenario) -> Result<TrustAnswer, RequestError> {
+    pub(super) fn answer(
+        &self,
+        scenario: &Scenario,
+        budget: &Budget<'_>,
+    ) -> Result<TrustAnswer, RequestError> {
         let plant = Plant::new(scenario)?;
         let (system, initial) = plant.scenario.validate()?;
         let reached = lasting(&plant, &system, &initial)?;
@@ -59,8 +64,8 @@ impl TrustTask {
             })
         };
         let mut table = Table::trust(scenario, self.quantity);
-        complete(&mut table);
-        let entries = table.trust_entries().flatten().map(|entry| entry.ok().cloned()).collect();
+        complete_within(&mut table, budget);
+        let entries = table.trust_entries().map(|entry| entry?.ok().cloned()).collect();
         let law_errors = reached.harvest.map_or_else(Vec::new, |found| errors(found.demand.tip).to_vec());
         Ok(TrustAnswer { entries, law_errors })
     }
