@@ -116,6 +116,10 @@ fn ceramics_trust_and_designs_are_answered() {
     assert_eq!((list(&trust["entries"]).len(), list(&trust["law_errors"]).len()), (32, 4));
     let value = |i: usize| number(&trust["entries"][i]["value"]);
     assert!((value(4) / value(7) - 1.0).abs() < 0.2, "{trust}");
+    // One mode has no table of resonances, and says why.
+    let reason = trust["entries"][0]["reason"].as_str();
+    assert!(trust["entries"][0]["value"].is_null() && reason.is_some_and(|why| why.contains("two modes")));
+    assert!(trust["entries"][7].get("reason").is_none(), "{trust}");
     let find = json!({
         "task": "find", "parameters": parameters, "generations": 3, "seed": 5, "t_end": 200,
         "variables": [{"name": "resistance", "from": 1e5, "to": 1e9, "logarithmic": true}],
@@ -125,6 +129,20 @@ fn ceramics_trust_and_designs_are_answered() {
     assert_eq!((list(&design["history"]).len(), &design["evaluations"]), (3, &json!(24)));
     let ohm = number(&design["values"][0]);
     assert!((number(&design["device"]["resistance"]) / ohm - 1.0).abs() < 1e-9, "{design}");
+}
+
+#[test]
+fn trust_says_what_the_modes_left_out_cost_in_volts() {
+    let device = json!({"frequency": 2.835, "coupling": 8e-5});
+    let trust = answer(&json!({"task": "trust", "device": device, "quantity": "voltage", "t_end": 20}));
+    let errors = list(&trust["moment_errors"]);
+    // By a mesh of Hermite elements with the circuit, tests/finite_element.rs.
+    for (modes, without, with) in [(2, 0.310, 0.0198), (8, 0.0497, 1.3e-4)] {
+        let entry = &errors[modes - 1];
+        assert_eq!(entry["modes"], modes);
+        assert!((number(&entry["without"]) - without).abs() < 1e-3, "{entry}");
+        assert!((number(&entry["with"]) - with).abs() < 1e-3, "{entry}");
+    }
 }
 
 #[test]

@@ -125,7 +125,7 @@ fn every_harvest_keeps_its_energy() -> TestResult {
     lossy.set_device(device, ElectricalScaling::AsPrinted)?;
     let stable = ParameterSet { omega: 3.9, ..Default::default() };
     let attracting = ParameterSet { c0: -0.02, d: 0.3, ..figure_9().parameters };
-    let exact = ModelChoice { modes: 3, force: ForceLaw::Exact };
+    let exact = ModelChoice { modes: 3, force: ForceLaw::Exact, ..Default::default() };
     let scaling = ElectricalScaling::Consistent;
     for scenario in [
         figure_9(),

@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn a_doubled_branch_between_two_doublings_is_followed_once() {
-        let model = ModelChoice { modes: 2, force: ForceLaw::Exact };
+        let model = ModelChoice { force: ForceLaw::Exact, ..Default::default() };
         let parameters = ParameterSet { alpha: 1e-3, beta: 7.5e-4, ..Default::default() };
         let scenario = Scenario { parameters, model, ..Default::default() };
         let curves =

@@ -1,7 +1,7 @@
 //! A scenario as a plant that delivers watts: its units, its load, and the dielectric loss beside the load.
 
 use crate::model::materials::dielectric_conductance;
-use crate::model::{ModelError, Parameter, ParameterSet, Parameters, ReducedSystem, Shaking, Units};
+use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem, Shaking, Units};
 use crate::scenario::Scenario;
 
 /// A scenario with its SI units and losses.
@@ -84,7 +84,7 @@ impl Plant {
     /// As [`ReducedSystem::new`].
     pub fn without_magnets(&self) -> Result<ReducedSystem, ModelError> {
         let set = ParameterSet { c0: 0.0, ..self.scenario.parameters };
-        ReducedSystem::new(Parameters::new(set)?, self.scenario.model.modes, self.scenario.model.force)
+        self.scenario.model.system(set)
     }
 
     /// Mean power in the load (W), V^2/R_eq, at a root mean square voltage (V).

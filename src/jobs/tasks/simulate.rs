@@ -127,32 +127,36 @@ impl SimulateRequest {
         Ok(SimulateAnswer { t, state, outcome: word(outcome), t_outcome, steps: integrator.steps() })
     }
 
-    /// Samples are given at the grid point nearest to their time: the method has no dense output.
+    /// Samples are given at the grid point nearest to their time, the method having no dense output; the last step is
+    /// shortened to end at `t_end`.
     fn classical(&self, system: &ReducedSystem, initial: &[f64]) -> Result<SimulateAnswer, IntegrationError> {
         let mut run = RungeKutta4::new(system, initial, self.steps_per_period)?;
         let length = run.step_length();
-        let last = (self.t_end / length).round() as u64;
-        let mut due = self.sample_times(self.t_end).into_iter().map(|t| (t / length).round() as u64);
+        // What is left of rounding is no step.
+        let whole = (self.t_end / length * (1.0 + 1e-12)).floor() as u64;
+        let mut due = self.sample_times(self.t_end);
+        due.pop();
+        let mut due = due.into_iter().map(|t| ((t / length).round() as u64).min(whole));
         let mut next = due.next();
         let (mut t, mut state) = (Vec::new(), Vec::new());
-        let mut outcome = Outcome::Completed;
+        let mut outcome = None;
         loop {
             while next.is_some_and(|step| step <= run.steps()) {
                 t.push(run.time());
                 state.push(run.state().to_vec());
                 next = due.next();
             }
-            if run.steps() >= last {
+            if run.steps() >= whole || outcome.is_some() {
                 break;
             }
-            if let Some(early) = run.step() {
-                outcome = early;
-                t.push(run.time());
-                state.push(run.state().to_vec());
-                break;
-            }
+            outcome = run.step();
         }
-        Ok(SimulateAnswer { t, state, outcome: word(outcome), t_outcome: run.time(), steps: run.steps() })
+        let early = outcome.or_else(|| run.step_to(self.t_end));
+        let t_outcome = if early.is_some() { run.time() } else { self.t_end };
+        t.push(t_outcome);
+        state.push(run.state().to_vec());
+        let outcome = word(early.unwrap_or(Outcome::Completed));
+        Ok(SimulateAnswer { t, state, outcome, t_outcome, steps: run.steps() })
     }
 
     /// The times of the samples that a run ending at `end` reaches, and last `end` itself.
