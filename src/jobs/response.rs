@@ -72,6 +72,18 @@ pub fn response(
     moved: (Parameter, Shaking),
     range: (f64, f64),
 ) -> Result<Vec<ResponseCurve>, OrbitError> {
+    Ok(branches(scenario, moved, range)?.iter().map(|(branch, periods)| curve(branch, *periods)).collect())
+}
+
+/// The same with the states of its orbits, each branch with its period in excitation periods.
+///
+/// # Errors
+/// As [`response`].
+pub(in crate::jobs) fn branches(
+    scenario: &Scenario,
+    moved: (Parameter, Shaking),
+    range: (f64, f64),
+) -> Result<Vec<(Branch, usize)>, OrbitError> {
     let from_low = forced(scenario, moved, range, true);
     let through = from_low.as_ref().is_ok_and(|(branch, _)| {
         let last = branch.points.last().map(|point| point.value);
@@ -82,11 +94,11 @@ pub fn response(
         (Err(reason), None | Some(Err(_))) => return Err(reason),
         (low, high) => low.into_iter().chain(high.into_iter().flatten()).collect(),
     };
-    let mut curves = Vec::new();
+    let mut branches = Vec::new();
     for (branch, course) in found {
-        add_with_doubled(scenario, &mut curves, branch, course, DOUBLINGS)?;
+        add_with_doubled(scenario, &mut branches, branch, course, DOUBLINGS)?;
     }
-    Ok(curves)
+    Ok(branches)
 }
 
 fn forced(
@@ -106,22 +118,27 @@ fn same(a: f64, b: f64, (low, high): (f64, f64)) -> bool {
     (a - b).abs() <= SAME * (high - low)
 }
 
-/// Adds a branch to `curves`, and those that leave its period doublings, unless a doubled branch already ended there.
+/// Adds a branch to `branches`, and those that leave its period doublings, unless a doubled branch already ended there.
 fn add_with_doubled(
     scenario: &Scenario,
-    curves: &mut Vec<ResponseCurve>,
+    branches: &mut Vec<(Branch, usize)>,
     branch: Branch,
     course: Course,
     doublings: usize,
 ) -> Result<(), OrbitError> {
-    curves.push(curve(&branch, course.periods));
+    let births: Vec<Bifurcation> = branch
+        .bifurcations
+        .iter()
+        .filter(|found| found.kind == Instability::PeriodDoubling)
+        .cloned()
+        .collect();
+    branches.push((branch, course.periods));
     if doublings == 0 {
         return Ok(());
     }
     let system = scenario.model.system(scenario.parameters)?;
     let mut closed: Vec<f64> = Vec::new();
-    let births = branch.bifurcations.iter().filter(|found| found.kind == Instability::PeriodDoubling);
-    for birth in births {
+    for birth in &births {
         if closed.iter().any(|value| same(*value, birth.point.value, course.range)) {
             continue;
         }
@@ -131,7 +148,7 @@ fn add_with_doubled(
             closed.push(value);
         }
         let course = Course { periods: 2 * course.periods, ..course };
-        add_with_doubled(scenario, curves, doubled, course, doublings - 1)?;
+        add_with_doubled(scenario, branches, doubled, course, doublings - 1)?;
     }
     Ok(())
 }
@@ -151,7 +168,7 @@ fn curve(branch: &Branch, periods: usize) -> ResponseCurve {
     }
 }
 
-fn point(point: &BranchPoint) -> ResponsePoint {
+pub(in crate::jobs) fn point(point: &BranchPoint) -> ResponsePoint {
     let measures = &point.measures;
     ResponsePoint {
         value: point.value,

@@ -13,6 +13,7 @@ pub mod linear;
 pub mod load;
 pub mod materials;
 pub mod measured;
+pub mod peak;
 pub mod plant;
 pub mod point;
 pub mod thin;
