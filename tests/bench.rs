@@ -126,7 +126,9 @@ fn ceramics_trust_and_designs_are_answered() {
     });
     let design = answer(&find);
     assert_eq!(design, answer(&find));
-    assert_eq!((list(&design["history"]).len(), &design["evaluations"]), (3, &json!(24)));
+    assert_eq!(list(&design["history"]).len(), 3 + 16);
+    assert_eq!((&design["sensitivity"][0]["name"], &design["cliff"]), (&json!("resistance"), &json!(false)));
+    assert!(number(&design["sensitivity"][0]["loss"]) < 1e-3, "{design}");
     let ohm = number(&design["values"][0]);
     assert!((number(&design["device"]["resistance"]) / ohm - 1.0).abs() < 1e-9, "{design}");
 }

@@ -16,6 +16,7 @@ pub mod measured;
 pub mod peak;
 pub mod plant;
 pub mod point;
+pub mod polish;
 pub mod thin;
 pub mod trust;
 pub mod work;
