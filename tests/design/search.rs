@@ -1,12 +1,13 @@
 //! The search for designs, and the maps that it is looked over in.
 
-use harvester_lab::jobs::design::find::{FindQuestion, Objective, Variable, evaluate};
-use harvester_lab::jobs::design::{Plant, operating};
+use harvester_lab::jobs::design::find::{Evaluation, FindQuestion, Objective, Variable, evaluate};
+use harvester_lab::jobs::design::{DesignFinding, DesignWork, Plant, operating};
 use harvester_lab::jobs::motions::{Coordinate, at_place};
 use harvester_lab::jobs::study::find::{FindStudy, NEIGHBOURS, ROUNDS};
 use harvester_lab::jobs::study::map::DesignMap;
 use harvester_lab::jobs::study::motion_chart::{MotionChart, MotionQuestion};
 use harvester_lab::jobs::study::{Study, complete};
+use harvester_lab::jobs::work::{Finding, Work};
 use harvester_lab::model::materials::Ceramic;
 use harvester_lab::model::{Device, Dimension, ForceLaw, Limits, Parameter};
 use harvester_lab::scenario::{ModelChoice, Scenario};
@@ -96,6 +97,32 @@ fn three_seeds_agree_and_the_neighbours_tell_a_cliff() -> TestResult {
     let (low, high) =
         (found.iter().copied().fold(f64::MAX, f64::min), found.iter().copied().fold(0.0, f64::max));
     assert!(low > 0.99 * high, "{found:?}");
+    Ok(())
+}
+
+#[test]
+fn a_best_one_at_an_edge_is_told_from_one_on_a_summit() -> TestResult {
+    // Answers of our own: power grows with the frequency to 3 Hz, where it falls to 40 %, or rises and falls smoothly.
+    let edge = |hertz: f64| if hertz < 3.0 { hertz } else { 0.4 * hertz };
+    let summit = |hertz: f64| 3.0 - (hertz - 3.0).powi(2);
+    for (power, cliff) in [(&edge as &dyn Fn(f64) -> f64, true), (&summit, false)] {
+        let mut study = FindStudy::new(question(Objective::Power, Limits::default()), 5, 1)?;
+        while let Some((ticket, work)) = study.next() {
+            let Work::Design(DesignWork::Candidate { values, .. }) = work else {
+                return Err("a candidate".into());
+            };
+            let found = Evaluation { value: Some(power(values[0])), violation: 0.0, motion: None };
+            study.take(ticket, Ok(Finding::Design(DesignFinding::Candidate(found))));
+        }
+        assert!(study.finished() && study.progress() == 1.0);
+        let best = study.best().ok_or("a candidate")?;
+        assert!((best.values[0] - 3.0).abs() < 2e-3, "{best:?}");
+        assert_eq!(study.sensitivities()[0].cliff(), cliff, "{:?}", study.sensitivities());
+        assert!(!study.sensitivities()[1].cliff() && study.sensitivities()[1].loss == 0.0);
+        if cliff {
+            assert!((study.sensitivities()[0].loss - 0.6).abs() < 1e-2, "{:?}", study.sensitivities());
+        }
+    }
     Ok(())
 }
 

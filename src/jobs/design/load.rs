@@ -3,13 +3,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::dielectric::{Settled, settle};
 use super::linear::linear_peak;
 use super::peak::{Peak, highest};
 use super::{Asked, Bounds, DesignError, Plant};
 use crate::dynamics::Effort;
 use crate::dynamics::motion::Cell;
 use crate::dynamics::orbit::Measures;
-use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError, reach};
+use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError};
 use crate::jobs::response::branches;
 use crate::model::{Limits, ModelError, Parameter, ReducedSystem, Shaking};
 use crate::scenario::Scenario;
@@ -130,7 +131,7 @@ pub fn reached_loads(
         let plant = plant.with_resistance(*resistance)?;
         let system = plant.system()?;
         let from = carried.as_ref().unwrap_or(&start);
-        let reached = reach(&system, from, Effort::cell())?;
+        let Settled { plant, reached, .. } = settle(&plant, &system, from, Effort::cell())?;
         let point = LoadPoint::of_cell(&plant, &reached.cell());
         let orbit = reached.orbit.map(|orbit| orbit.state);
         carried = point.stable.then(|| orbit.unwrap_or(reached.state));

@@ -9,7 +9,7 @@ use crate::scenario::Scenario;
 pub struct Plant {
     /// The scenario whose kappa is the whole conductance: the load and, where the device has a loss tangent, the
     /// dielectric loss at the scenario's own frequency, a constant conductance beside the load. Everything dynamic is
-    /// computed from it.
+    /// computed from it; the motion reached under one excitation then gets the loss at its own main frequency.
     pub scenario: Scenario,
     /// Conductance of the load alone (dimensionless).
     pub load: f64,
@@ -49,6 +49,14 @@ impl Plant {
         scenario.validate()?;
         let units = scenario.units();
         Ok(Self { scenario, load, leakage, units, shaking: Shaking::Amplitude })
+    }
+
+    /// The same plant with another conductance of the dielectric loss (dimensionless).
+    ///
+    /// # Errors
+    /// [`ModelError`] when the whole conductance is out of range.
+    pub fn with_leakage(&self, leakage: f64) -> Result<Self, ModelError> {
+        Ok(Self::with(&self.scenario, self.load, leakage)?.shaken(self.shaking))
     }
 
     /// The same plant with a load of `resistance` (ohm).
