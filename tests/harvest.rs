@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use harvester_lab::dynamics::{Balance, Motion, Orbit};
+use harvester_lab::dynamics::{Balance, Motion, Orbit, Settings, Trajectory};
 use harvester_lab::jobs::design::linear::{linear_at_its_best, linear_curve};
 use harvester_lab::jobs::design::{Plant, operating};
 use harvester_lab::model::limits::Standing;

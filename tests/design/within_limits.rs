@@ -1,12 +1,15 @@
 //! Bands and loads that keep the limits.
 
+use harvester_lab::dynamics::Instability;
 use harvester_lab::dynamics::sweep::{Dwell, sweep};
 use harvester_lab::jobs::design::band::usable;
+use harvester_lab::jobs::design::point::powers;
 use harvester_lab::jobs::design::{Asked, Bounds, Plant, operating};
 use harvester_lab::jobs::solve;
-use harvester_lab::jobs::study::complete;
 use harvester_lab::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
 use harvester_lab::jobs::study::load::{LoadQuestion, LoadStudy};
+use harvester_lab::jobs::study::sweep::Direction;
+use harvester_lab::jobs::study::{Study, complete};
 use harvester_lab::model::{Device, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet, Shaking};
 use harvester_lab::scenario::Scenario;
 
@@ -116,5 +119,46 @@ fn the_best_frequency_within_limits_is_where_the_limit_is_met() -> TestResult {
     let tip = (beam * last.tip.0, beam * last.tip.1);
     let margin = bounds.margin(&Asked { v_peak: last.v_peak, tip, slope: last.slope });
     assert!(margin.abs() < 1e-3, "{margin}");
+    Ok(())
+}
+
+#[test]
+fn a_swept_curve_jumps_where_the_branch_folds_and_its_band_ends_there() -> TestResult {
+    // The forced motion leans to high frequencies and turns back at a fold; a sweep up falls off it there.
+    let device = Device { viscosity: 1.731e6, base_amplitude: 2e-4, resistance: 763e3, ..Device::default() };
+    let mut scenario = Scenario::default();
+    scenario.set_device(device, ElectricalScaling::AsPrinted)?;
+    scenario.model.force = ForceLaw::Exact;
+    let (dwell, shaking) = (Dwell::default(), Shaking::Amplitude);
+    let units = scenario.units();
+    let window = (units.omega(1.35), units.omega(1.65));
+    let question = HarvestQuestion { scenario, window, shaking, count: 31, dwell };
+    let mut study = HarvestStudy::new(question)?;
+    complete(&mut study);
+    assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
+    let curves = study.branches().ok_or("known")?.map_err(str::to_owned)?;
+    let units = study.question().scenario.units();
+    let folds =
+        curves.iter().flat_map(|curve| &curve.changes).filter(|change| change.kind == Instability::Fold);
+    let fold = folds.map(|change| units.hertz(change.point.value)).fold(0.0, f64::max);
+    for direction in [Direction::Up, Direction::Down] {
+        let samples = study.swept(direction);
+        let pieces = study.swept_pieces(direction);
+        assert!(samples.iter().all(Option::is_some) && pieces.len() == 1 && pieces[0].len() >= samples.len());
+    }
+    let piece = study.swept_pieces(Direction::Up).concat();
+    assert!(piece.is_sorted_by(|a, b| a.frequency <= b.frequency));
+    let jump = piece.windows(2).find(|pair| pair[0].frequency == pair[1].frequency).ok_or("a jump")?;
+    println!("{jump:?} {fold}");
+    assert!((jump[0].frequency / fold - 1.0).abs() < 3e-4, "{jump:?} {fold}");
+    assert!(jump[0].power > 2.0 * jump[1].power, "{jump:?}");
+    // The band ends with the motion: a line between the samples would have ended it elsewhere.
+    let least = 0.5 * jump[0].power + 0.5 * jump[1].power;
+    let band = *usable(&powers(&study.swept_pieces(Direction::Up)), least).last().ok_or("a band")?;
+    assert!((band.to / fold - 1.0).abs() < 3e-4, "{band:?} {fold}");
+    let across: Vec<[f64; 2]> =
+        study.swept(Direction::Up).iter().flatten().map(|point| [point.frequency, point.power]).collect();
+    let drawn = *usable(&[across], least).last().ok_or("a band")?;
+    assert!((drawn.to / fold - 1.0).abs() > 1e-3, "{drawn:?} {fold}");
     Ok(())
 }

@@ -4,6 +4,7 @@
 pub mod alignment;
 pub mod band;
 pub mod bounds;
+pub mod change;
 mod dielectric;
 pub mod error;
 pub mod evolution;
