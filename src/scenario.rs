@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn a_scenario_round_trips_through_json() -> Result<(), serde_json::Error> {
-        let model = ModelChoice { modes: 4, force: crate::model::ForceLaw::Taylor(5) };
+        let model = ModelChoice { modes: 4, force: crate::model::ForceLaw::Taylor(5), residual_moment: true };
         let scenario = Scenario { model, initial: Some(vec![0.1; 9]), ..Default::default() };
         assert_eq!(serde_json::from_str::<Scenario>(&serde_json::to_string(&scenario)?)?, scenario);
         Ok(())

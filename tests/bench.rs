@@ -91,6 +91,14 @@ fn limits_say_what_is_broken() {
     };
     let (thick, thin) = (with(2e-4), with(5e-5));
     assert_eq!((&thick["safe"], &thin["safe"]), (&json!(true), &json!(false)));
+    assert_eq!((&thick["assessment"], &thin["assessment"]), (&json!("within_limits"), &json!("exceeded")));
+    // The peak is held against the field: 9 V/mil of 50 um are 17.7 V, and the motion's peak is beyond 11 V/mil.
+    assert_eq!(thin["voltage_compared"], "v_peak");
+    assert_eq!(thin["checks"][0]["value"], thin["demand"]["v_peak"]);
+    assert!((number(&thin["checks"][0]["limit"]) - 9.0 * 5e-5 / 2.54e-5).abs() < 1e-9);
+    // Without a ceramic nothing is known of the voltage it bears.
+    let bare = answer(&json!({"task": "limits", "parameters": figure_9(), "device": {"gravity": 0.0}}));
+    assert_eq!((&bare["safe"], &bare["assessment"]), (&json!(false), &json!("unchecked")));
     let broken =
         |found: &Value| list(&found["checks"]).iter().filter(|check| check["standing"] != "within").count();
     assert_eq!((broken(&thick), broken(&thin)), (0, 1), "{thin}");
@@ -100,8 +108,8 @@ fn limits_say_what_is_broken() {
     let sagging = answer(&json!({"task": "limits", "parameters": figure_9()}));
     let sag = &sagging["sag"];
     assert_eq!((&sag["kind"], &sag["standing"]), (&json!("sag"), &json!("exceeded")));
-    // It is the model that this strains, not the motion.
-    assert_eq!(sagging["safe"], true);
+    // No limit of the motion is broken, but the model counts the sag as small.
+    assert_eq!((&sagging["safe"], &sagging["assessment"]), (&json!(false), &json!("model_not_valid")));
 }
 
 #[test]
@@ -116,15 +124,35 @@ fn ceramics_trust_and_designs_are_answered() {
     assert_eq!((list(&trust["entries"]).len(), list(&trust["law_errors"]).len()), (32, 4));
     let value = |i: usize| number(&trust["entries"][i]["value"]);
     assert!((value(4) / value(7) - 1.0).abs() < 0.2, "{trust}");
+    // One mode has no table of resonances, and says why.
+    let reason = trust["entries"][0]["reason"].as_str();
+    assert!(trust["entries"][0]["value"].is_null() && reason.is_some_and(|why| why.contains("two modes")));
+    assert!(trust["entries"][7].get("reason").is_none(), "{trust}");
     let find = json!({
         "task": "find", "parameters": parameters, "generations": 3, "seed": 5, "t_end": 200,
         "variables": [{"name": "resistance", "from": 1e5, "to": 1e9, "logarithmic": true}],
     });
     let design = answer(&find);
     assert_eq!(design, answer(&find));
-    assert_eq!((list(&design["history"]).len(), &design["evaluations"]), (3, &json!(24)));
+    assert_eq!(list(&design["history"]).len(), 3 + 16);
+    assert_eq!((&design["sensitivity"][0]["name"], &design["cliff"]), (&json!("resistance"), &json!(false)));
+    assert!(number(&design["sensitivity"][0]["loss"]) < 1e-3, "{design}");
     let ohm = number(&design["values"][0]);
     assert!((number(&design["device"]["resistance"]) / ohm - 1.0).abs() < 1e-9, "{design}");
+}
+
+#[test]
+fn trust_says_what_the_modes_left_out_cost_in_volts() {
+    let device = json!({"frequency": 2.835, "coupling": 8e-5});
+    let trust = answer(&json!({"task": "trust", "device": device, "quantity": "voltage", "t_end": 20}));
+    let errors = list(&trust["moment_errors"]);
+    // By a mesh of Hermite elements with the circuit, tests/finite_element.rs.
+    for (modes, without, with) in [(2, 0.310, 0.0198), (8, 0.0497, 1.3e-4)] {
+        let entry = &errors[modes - 1];
+        assert_eq!(entry["modes"], modes);
+        assert!((number(&entry["without"]) - without).abs() < 1e-3, "{entry}");
+        assert!((number(&entry["with"]) - with).abs() < 1e-3, "{entry}");
+    }
 }
 
 #[test]

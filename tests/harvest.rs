@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use harvester_lab::dynamics::{Balance, Motion, Orbit};
+use harvester_lab::dynamics::{Balance, Motion, Orbit, Settings, Trajectory};
 use harvester_lab::jobs::design::linear::{linear_at_its_best, linear_curve};
 use harvester_lab::jobs::design::{Plant, operating};
 use harvester_lab::model::limits::Standing;
@@ -125,7 +125,7 @@ fn every_harvest_keeps_its_energy() -> TestResult {
     lossy.set_device(device, ElectricalScaling::AsPrinted)?;
     let stable = ParameterSet { omega: 3.9, ..Default::default() };
     let attracting = ParameterSet { c0: -0.02, d: 0.3, ..figure_9().parameters };
-    let exact = ModelChoice { modes: 3, force: ForceLaw::Exact };
+    let exact = ModelChoice { modes: 3, force: ForceLaw::Exact, ..Default::default() };
     let scaling = ElectricalScaling::Consistent;
     for scenario in [
         figure_9(),
@@ -150,6 +150,24 @@ fn every_harvest_keeps_its_energy() -> TestResult {
     let found = operating(&lossy)?.linear;
     let share = 0.02 * lossy.parameters.omega * lossy.parameters.c / lossy.parameters.kappa;
     assert!((found.dielectric / found.power / share - 1.0).abs() < 1e-12);
+    // The doubled motion has the largest line of its voltage at half of the frequency, and half the conductance there.
+    let reached = operating(&lossy)?.reached;
+    let harvest = reached.harvest.ok_or("it lasts")?;
+    assert_eq!(reached.motion, Motion::Periodic { periods: 2 });
+    let hertz = reached.dielectric_frequency.ok_or("a loss")?;
+    assert!((hertz / lossy.device()?.frequency - 0.5).abs() < 1e-12, "{hertz}");
+    assert!((harvest.dielectric / harvest.power / (0.5 * share) - 1.0).abs() < 1e-9, "{harvest:?}");
+    // Integrated with that conductance in all, from rest.
+    let mut whole = lossy.parameters;
+    whole.kappa += 0.02 * 0.5 * whole.omega * whole.c;
+    let system = lossy.model.system(whole)?;
+    let run = Trajectory::compute(&system, &[0.0; 5], 600.0, Settings::default())?;
+    let period = 2.0 * system.parameters.period();
+    let (mut sum, count) = (0.0, 4096);
+    run.sample(600.0 - 20.0 * period, 600.0, count, |_, state| sum += state[4] * state[4]);
+    let v_rms = (sum / count as f64).sqrt();
+    assert!((v_rms / harvest.v_rms - 1.0).abs() < 2e-3, "{v_rms} {}", harvest.v_rms);
+    assert_eq!(operating(&figure_9())?.reached.dielectric_frequency, None);
     Ok(())
 }
 

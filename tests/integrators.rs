@@ -152,18 +152,39 @@ fn simulate_requests_by_both_methods_agree() {
 }
 
 #[test]
-fn figure_12_escapes_at_the_same_time_by_both_methods() {
+fn figure_12_escapes_where_the_tip_passes_ten_lengths_by_both_methods() {
     let set = ParameterSet { alpha: 1e-4, beta: 1e-2, omega: 2.0 * 21.3562434253049, ..Default::default() };
     let system = system(set, 2, ForceLaw::Quadratic);
-    let run = Trajectory::compute(&system, &[0.0; 5], 100.0, Settings::default()).expect("a run");
+    // |s| = 10 at t = 1.138751, by an integration in 40 digits.
     let (_, ended) = classical_run(&system, &[0.0; 5], 10_000, 20);
-    match (run.outcome, ended) {
-        (Outcome::Escaped { time }, Some(Outcome::Escaped { time: other })) => {
-            // Grids differ, and |s| = 10 is passed within a fraction of a step.
-            assert!((time - other).abs() < 2e-2 && (1.1..1.25).contains(&time), "{time} {other}");
-        }
-        other => panic!("{other:?}"),
+    let Some(Outcome::Escaped { time }) = ended else { panic!("{ended:?}") };
+    assert!((time - 1.138751).abs() < 1e-6, "{time}");
+    for (tolerance, bound) in [(1e-5, 1e-6), (1e-3, 2e-5)] {
+        let run = Trajectory::compute(&system, &[0.0; 5], 100.0, Settings { tolerance }).expect("a run");
+        let Outcome::Escaped { time } = run.outcome else { panic!("{:?}", run.outcome) };
+        assert!((time - 1.138751).abs() < bound, "{tolerance}: {time}");
+        assert_eq!(run.end_time(), time);
+        let tip = system.tip_displacement(run.final_state()).abs();
+        assert!((tip - 10.0).abs() < 1e-3, "{tolerance}: {tip}");
+        // Close before the end the dense output of the shortened step goes on to there.
+        let before = system.tip_displacement(&run.state_at(time - 1e-6)).abs();
+        assert!((9.9..10.0).contains(&before), "{tolerance}: {before}");
     }
+}
+
+#[test]
+fn the_classical_method_ends_at_the_end_with_a_shortened_step() {
+    let set = ParameterSet { alpha: 1e-4, beta: 1e-2, omega: 9.0, ..Default::default() };
+    let system = system(set, 2, ForceLaw::Exact);
+    let request = r#"{"task":"simulate","method":"rk4","steps_per_period":1000,"t_end":2,"samples":4,
+        "parameters":{"alpha":1e-4,"beta":0.01,"omega":9},"model":{"force":"exact"}}"#;
+    let answer: serde_json::Value =
+        serde_json::from_str(&harvester_lab::jobs::solve(request).expect("an answer")).expect("JSON");
+    assert_eq!((&answer["t"][3], &answer["t_outcome"]), (&2.0.into(), &2.0.into()));
+    // Two whole steps a period short of 2 is 2.9e-4: the states differ by 1e-3 there.
+    let run = Trajectory::compute(&system, &[0.0; 5], 2.0, Settings { tolerance: 1e-8 }).expect("a run");
+    let error = difference(&numbers(&answer["state"][3]), run.final_state());
+    assert!(error < 1e-8, "{error:e}");
 }
 
 #[test]

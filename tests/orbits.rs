@@ -190,7 +190,7 @@ fn without_magnets_everything_is_known_in_closed_form() -> TestResult {
 
 #[test]
 fn a_run_along_an_orbit_measures_the_orbit() -> TestResult {
-    let quadratic = |modes| ModelChoice { modes, force: ForceLaw::Quadratic };
+    let quadratic = |modes| ModelChoice { modes, ..Default::default() };
     let figure_9 = ParameterSet { omega: figure_9(ForceLaw::Quadratic)?.parameters.omega, ..strong() };
     // The end of a run need not be that of a period; the second orbit has two.
     for (set, model, periods, t_end) in [
@@ -198,7 +198,7 @@ fn a_run_along_an_orbit_measures_the_orbit() -> TestResult {
         (figure_9, quadratic(2), 2, 601.3),
         (
             ParameterSet { omega: 12.0, ..strong() },
-            ModelChoice { modes: 4, force: ForceLaw::Exact },
+            ModelChoice { modes: 4, force: ForceLaw::Exact, ..Default::default() },
             1,
             100.0,
         ),

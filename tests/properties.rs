@@ -72,7 +72,7 @@ impl Random {
             (0..state_dimension(modes)).map(|_| size * self.between(-1.0, 1.0)).collect()
         });
         let t_end = (3.0 * std::f64::consts::TAU / parameters.omega).clamp(1.0, 5.0);
-        let model = ModelChoice { modes, force: self.force() };
+        let model = ModelChoice { modes, force: self.force(), ..Default::default() };
         Scenario { parameters, model, initial, t_end, ..Default::default() }
     }
 }

@@ -269,3 +269,27 @@ fn basins_are_indices_into_attractors_that_orbits_confirm() {
         }
     }
 }
+
+#[test]
+fn one_mode_has_its_equilibrium_and_the_roots_of_its_cubic() {
+    let modes = answer(&json!({"task": "modes", "model": {"modes": 1}}));
+    assert!((number(&modes["omega"][0]) / OMEGA_1 - 1.0).abs() < 1e-12, "{modes}");
+    let roots = list(&modes["eigenvalues"]);
+    assert_eq!(roots.len(), 3);
+    // (x^2 + alpha (omega_1^2 - c_1/eta_21) x + omega_1^2)(c x + kappa) + x theta_1^2/eta_21 = 0 by the paper's numbers.
+    let (alpha, c1, c, kappa) = (1e-3, 1.3450051225722, 1e-6, 1e-6);
+    let (eta2, theta): (f64, f64) = (0.275163559332428, 2.66720397414344e-4);
+    let decay = alpha * (OMEGA_1 * OMEGA_1 - c1 / eta2);
+    for root in roots {
+        let x = nalgebra::Complex::new(number(&root[0]), number(&root[1]));
+        let circuit = x * c + kappa;
+        let value = (x * x + x * decay + OMEGA_1 * OMEGA_1) * circuit + x * (theta * theta / eta2);
+        assert!(value.norm() < 1e-10 * OMEGA_1 * OMEGA_1 * circuit.norm(), "{x}: {value}");
+    }
+    // c_r = theta^2 (slope at rest less that of mode 1) joins c where it is asked for.
+    let with = answer(&json!({"task": "modes", "model": {"modes": 1, "residual_moment": true}}));
+    let slope: f64 = 1.0 - 0.25 * c1 / (1.0 + c1 / 3.0);
+    let residual = 4e-8 * slope - theta * theta / (eta2 * OMEGA_1 * OMEGA_1);
+    assert_eq!(number(&modes["capacitance"]), c);
+    assert!((number(&with["capacitance"]) - c - residual).abs() < 1e-12 * c, "{with} {residual}");
+}

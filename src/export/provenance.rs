@@ -49,7 +49,8 @@ impl Provenance {
             ForceLaw::Taylor(order) => format!("Taylor (order {order})"),
             ForceLaw::Exact => "exact".to_owned(),
         };
-        format!("{modes} {}, {law} magnet force", if modes == 1 { "mode" } else { "modes" })
+        let rest = if self.scenario.model.residual_moment { ", modes left out in the circuit" } else { "" };
+        format!("{modes} {}, {law} magnet force{rest}", if modes == 1 { "mode" } else { "modes" })
     }
 
     /// From where to when.

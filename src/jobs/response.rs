@@ -75,6 +75,34 @@ pub fn response(
     moved: (Parameter, Shaking),
     range: (f64, f64),
 ) -> Result<Vec<ResponseCurve>, OrbitError> {
+    Ok(branches(scenario, moved, range)?.iter().map(curve).collect())
+}
+
+/// A branch that was followed.
+pub(in crate::jobs) struct Followed {
+    pub(in crate::jobs) branch: Branch,
+    /// Of its motions, in excitation periods.
+    pub(in crate::jobs) periods: usize,
+    /// Whether branches that leave it were left out, because they would have taken too long.
+    left_out: bool,
+}
+
+impl Followed {
+    /// Whether more of it, or of the branches that leave it, is not there.
+    pub(in crate::jobs) fn is_cut(&self) -> bool {
+        self.left_out || matches!(self.branch.end, BranchEnd::Points | BranchEnd::Effort)
+    }
+}
+
+/// The same with the states of its orbits.
+///
+/// # Errors
+/// As [`response`].
+pub(in crate::jobs) fn branches(
+    scenario: &Scenario,
+    moved: (Parameter, Shaking),
+    range: (f64, f64),
+) -> Result<Vec<Followed>, OrbitError> {
     let from_low = forced(scenario, moved, range, true);
     let through = from_low.as_ref().is_ok_and(|(branch, _)| {
         let last = branch.points.last().map(|point| point.value);
@@ -85,12 +113,12 @@ pub fn response(
         (Err(reason), None | Some(Err(_))) => return Err(reason),
         (low, high) => low.into_iter().chain(high.into_iter().flatten()).collect(),
     };
-    let mut curves = Vec::new();
+    let mut branches = Vec::new();
     let mut effort = 0;
     for (branch, course) in found {
-        add_with_doubled(scenario, (&mut curves, &mut effort), branch, course, DOUBLINGS)?;
+        add_with_doubled(scenario, (&mut branches, &mut effort), branch, course, DOUBLINGS)?;
     }
-    Ok(curves)
+    Ok(branches)
 }
 
 fn forced(
@@ -110,30 +138,35 @@ fn same(a: f64, b: f64, (low, high): (f64, f64)) -> bool {
     (a - b).abs() <= SAME * (high - low)
 }
 
-/// Adds a branch to `curves`, and those that leave its period doublings, unless a doubled branch already ended there, or
+/// Adds a branch to `branches`, and those that leave its period doublings, unless a doubled branch already ended there, or
 /// all together have taken as much `effort` as a single one may.
 fn add_with_doubled(
     scenario: &Scenario,
-    (curves, effort): (&mut Vec<ResponseCurve>, &mut u64),
+    (branches, effort): (&mut Vec<Followed>, &mut u64),
     branch: Branch,
     course: Course,
     doublings: usize,
 ) -> Result<(), OrbitError> {
-    let place = curves.len();
-    curves.push(curve(&branch, course.periods));
+    let births: Vec<Bifurcation> = branch
+        .bifurcations
+        .iter()
+        .filter(|found| found.kind == Instability::PeriodDoubling)
+        .cloned()
+        .collect();
+    let place = branches.len();
     *effort += branch.effort;
+    branches.push(Followed { branch, periods: course.periods, left_out: false });
     if doublings == 0 {
         return Ok(());
     }
     let system = scenario.model.system(scenario.parameters)?;
     let mut closed: Vec<f64> = Vec::new();
-    let births = branch.bifurcations.iter().filter(|found| found.kind == Instability::PeriodDoubling);
-    for birth in births {
+    for birth in &births {
         if closed.iter().any(|value| same(*value, birth.point.value, course.range)) {
             continue;
         }
         if *effort > MOST_EFFORT {
-            curves[place].cut = true;
+            branches[place].left_out = true;
             break;
         }
         // A doubling so degenerate that no doubled motion is found beside it leaves the rest of the picture intact.
@@ -142,12 +175,13 @@ fn add_with_doubled(
             closed.push(value);
         }
         let course = Course { periods: 2 * course.periods, ..course };
-        add_with_doubled(scenario, (&mut *curves, &mut *effort), doubled, course, doublings - 1)?;
+        add_with_doubled(scenario, (&mut *branches, &mut *effort), doubled, course, doublings - 1)?;
     }
     Ok(())
 }
 
-fn curve(branch: &Branch, periods: usize) -> ResponseCurve {
+fn curve(followed: &Followed) -> ResponseCurve {
+    let Followed { branch, periods, .. } = followed;
     let end = match &branch.end {
         BranchEnd::Range | BranchEnd::Halved { .. } => String::new(),
         BranchEnd::Lost { reason } => reason.to_string(),
@@ -156,15 +190,15 @@ fn curve(branch: &Branch, periods: usize) -> ResponseCurve {
     };
     let change = |found: &Bifurcation| Change { kind: found.kind, point: point(&found.point) };
     ResponseCurve {
-        periods,
+        periods: *periods,
         points: branch.points.iter().map(point).collect(),
         changes: branch.bifurcations.iter().map(change).collect(),
         end,
-        cut: matches!(branch.end, BranchEnd::Points | BranchEnd::Effort),
+        cut: followed.is_cut(),
     }
 }
 
-fn point(point: &BranchPoint) -> ResponsePoint {
+pub(in crate::jobs) fn point(point: &BranchPoint) -> ResponsePoint {
     let measures = &point.measures;
     ResponsePoint {
         value: point.value,
@@ -216,7 +250,7 @@ mod tests {
 
     #[test]
     fn a_doubled_branch_between_two_doublings_is_followed_once() {
-        let model = ModelChoice { modes: 2, force: ForceLaw::Exact };
+        let model = ModelChoice { force: ForceLaw::Exact, ..Default::default() };
         let parameters = ParameterSet { alpha: 1e-3, beta: 7.5e-4, ..Default::default() };
         let scenario = Scenario { parameters, model, ..Default::default() };
         let curves =

@@ -47,7 +47,7 @@ fn a_million_measured_rows_open_while_the_page_goes_on() {
 fn a_device_out_of_its_limits_is_called_unsafe_and_the_search_finds_a_better_one() {
     let mut page = Page::open(1440, 900, Theme::Dark);
     click(&mut page, "Design");
-    page.find("Limits: safe", &[]);
+    page.find("Limits: model not valid", &[]);
     let json = r#"{"scenario":{"parameters":{"alpha":1e-4,"beta":0.01,"omega":8.0969}},"tab":"design",
         "design":{"limits":{"voltage":[20.0,20.0]},"watched":"peak"}}"#;
     page.call("load", json).expect("a view");
@@ -68,6 +68,6 @@ fn a_device_out_of_its_limits_is_called_unsafe_and_the_search_finds_a_better_one
     click(&mut page, "Use it");
     let state = page.wait_until("another device", |state| state["view"]["scenario"]["device"].is_object());
     assert_ne!(state["view"]["scenario"]["parameters"]["kappa"], 1e-6);
-    page.find("Limits: safe", &[]);
+    page.find("Limits: model not valid", &[]);
     page.close();
 }

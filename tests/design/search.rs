@@ -1,12 +1,13 @@
 //! The search for designs, and the maps that it is looked over in.
 
-use harvester_lab::jobs::design::find::{FindQuestion, Objective, Variable, evaluate};
-use harvester_lab::jobs::design::{Plant, operating};
+use harvester_lab::jobs::design::find::{Evaluation, FindQuestion, Objective, Variable, evaluate};
+use harvester_lab::jobs::design::{DesignFinding, DesignWork, Plant, operating};
 use harvester_lab::jobs::motions::{Coordinate, at_place};
-use harvester_lab::jobs::study::find::FindStudy;
+use harvester_lab::jobs::study::find::{FindStudy, NEIGHBOURS, ROUNDS};
 use harvester_lab::jobs::study::map::DesignMap;
 use harvester_lab::jobs::study::motion_chart::{MotionChart, MotionQuestion};
 use harvester_lab::jobs::study::{Study, complete};
+use harvester_lab::jobs::work::{Finding, Work};
 use harvester_lab::model::materials::Ceramic;
 use harvester_lab::model::{Device, Dimension, ForceLaw, Limits, Parameter};
 use harvester_lab::scenario::{ModelChoice, Scenario};
@@ -42,7 +43,11 @@ fn a_search_finds_more_power_within_its_limits_and_the_same_again() -> TestResul
         let found = study.best().ok_or("a candidate")?;
         println!("{found:?} of {}", study.visited().len());
         assert_eq!(found.evaluation.violation, 0.0);
-        assert_eq!((study.history().len(), study.visited().len()), (8, 8 * 16));
+        // Eight generations of 16, then rounds of four trials about each of up to three places, then the neighbours.
+        let polished = study.visited().len() - 8 * 16;
+        assert_eq!(study.history().len(), 8 + ROUNDS);
+        assert!(polished.is_multiple_of(4 * ROUNDS) && (4..=12).contains(&(polished / ROUNDS)), "{polished}");
+        assert_eq!(study.sensitivities().len(), 2);
         let ranks = study.history().iter().map(|best| best.evaluation.rank(&question.objective));
         assert!(ranks.collect::<Vec<_>>().is_sorted());
         assert_eq!(run()?.best(), study.best());
@@ -59,6 +64,65 @@ fn a_search_finds_more_power_within_its_limits_and_the_same_again() -> TestResul
     let own = own.ok_or("it lasts")?.power;
     println!("own {own}, found {powers:?}");
     assert!(powers[0] > own && powers[0] > powers[1], "{powers:?} {own}");
+    Ok(())
+}
+
+#[test]
+fn three_seeds_agree_and_the_neighbours_tell_a_cliff() -> TestResult {
+    let limits = Limits { voltage: Some((14.0, 14.0)), ..Default::default() };
+    let question = question(Objective::Power, limits);
+    let mut found = Vec::new();
+    for seed in [0, 1, 2] {
+        let mut study = FindStudy::new(question.clone(), 20, seed)?;
+        complete(&mut study);
+        let best = study.best().ok_or("a candidate")?.clone();
+        println!("{seed}: {best:?} {:?}", study.sensitivities());
+        assert_eq!(best.evaluation.violation, 0.0);
+        let value = best.evaluation.value.ok_or("it lasts")?;
+        for (i, sensitivity) in study.sensitivities().iter().enumerate() {
+            let mut least: f64 = 1.0;
+            for (at, there) in sensitivity.neighbours {
+                let change = at / best.values[i] - 1.0;
+                assert!(change.abs() < 1.001 * NEIGHBOURS, "{change}");
+                let mut values = best.values.clone();
+                values[i] = at;
+                assert_eq!(evaluate(&question, &values)?, there);
+                least = least.min(there.value.unwrap_or(0.0) / value);
+            }
+            assert!((sensitivity.loss - (1.0 - least)).abs() < 1e-12 || least == 1.0, "{sensitivity:?}");
+            assert_eq!(sensitivity.cliff(), sensitivity.loss > 0.1);
+        }
+        found.push(value);
+    }
+    let (low, high) =
+        (found.iter().copied().fold(f64::MAX, f64::min), found.iter().copied().fold(0.0, f64::max));
+    assert!(low > 0.99 * high, "{found:?}");
+    Ok(())
+}
+
+#[test]
+fn a_best_one_at_an_edge_is_told_from_one_on_a_summit() -> TestResult {
+    // Answers of our own: power grows with the frequency to 3 Hz, where it falls to 40 %, or rises and falls smoothly.
+    let edge = |hertz: f64| if hertz < 3.0 { hertz } else { 0.4 * hertz };
+    let summit = |hertz: f64| 3.0 - (hertz - 3.0).powi(2);
+    for (power, cliff) in [(&edge as &dyn Fn(f64) -> f64, true), (&summit, false)] {
+        let mut study = FindStudy::new(question(Objective::Power, Limits::default()), 5, 1)?;
+        while let Some((ticket, work)) = study.next() {
+            let Work::Design(DesignWork::Candidate { values, .. }) = work else {
+                return Err("a candidate".into());
+            };
+            let found = Evaluation { value: Some(power(values[0])), violation: 0.0, motion: None };
+            study.take(ticket, Ok(Finding::Design(DesignFinding::Candidate(found))));
+        }
+        assert!(study.finished() && study.progress() == 1.0);
+        let best = study.best().ok_or("a candidate")?;
+        assert!((best.values[0] - 3.0).abs() < 2e-3, "{best:?}");
+        assert_eq!(study.sensitivities()[0].cliff(), cliff, "{:?}", study.sensitivities());
+        assert!(!study.sensitivities()[1].cliff() && study.sensitivities()[1].loss == 0.0);
+        if cliff {
+            assert!((study.sensitivities()[0].loss - 0.6).abs() < 1e-2, "{:?}", study.sensitivities());
+        }
+    }
     Ok(())
 }
 

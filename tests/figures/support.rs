@@ -24,7 +24,7 @@ pub(crate) fn paper(alpha: f64, beta: f64, omega: f64, t_end: f64) -> Run {
 }
 
 pub(crate) fn exact(modes: usize) -> ModelChoice {
-    ModelChoice { modes, force: ForceLaw::Exact }
+    ModelChoice { modes, force: ForceLaw::Exact, ..Default::default() }
 }
 
 /// States at the last `count` stroboscopic times before the end of the run, from its dense output.

@@ -22,7 +22,7 @@ use self::step::Attempt;
 pub(super) use self::step::ROUNDING;
 pub use self::step::Step;
 use super::linear::LinearPart;
-use super::propagator::Propagator;
+use super::propagator::{Propagator, StepRest, Workspace};
 use super::tables::{BLOCK, NODES, NodeValues, StepTables};
 use super::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
 use crate::model::{ReducedSystem, RestForce};
@@ -31,6 +31,8 @@ use crate::model::{ReducedSystem, RestForce};
 const SPARE_STEPS: u64 = 200_000;
 /// How many times shorter than the longest step the steps of a long run may be on average.
 const MOST_SHORTENED: u64 = 64;
+/// Halvings of a step in which the tip escapes: they find the instant to 1e-12 of the step.
+const HALVINGS_TO_ESCAPE: usize = 40;
 
 /// How a run is carried out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -179,6 +181,9 @@ impl Collocation {
             };
             let attempt = self.attempt(&tables);
             if let Attempt::Accepted { .. } = attempt {
+                if let Some(outcome) = self.escape_within(&tables, observer) {
+                    return Ok(Some(outcome));
+                }
                 observer(&self.present(&tables));
             }
             if !last {
@@ -224,6 +229,36 @@ impl Collocation {
         let dimension = self.part.modes * 2 + 1;
         self.extended[..dimension].copy_from_slice(&self.end[..dimension]);
         self.steps += 1;
+    }
+
+    /// Whether the tip escapes in the step solved last, that of `tables`. The run then ends where |s| is
+    /// [`ESCAPE_DISPLACEMENT`], found by dense output, with a step shortened to there.
+    fn escape_within(&mut self, tables: &StepTables, observer: &mut dyn FnMut(&Step<'_>)) -> Option<Outcome> {
+        let n = self.part.modes;
+        let escaped = |state: &[f64]| state[..n].iter().sum::<f64>().abs() >= ESCAPE_DISPLACEMENT;
+        if !escaped(&self.end) || escaped(&self.extended) {
+            return None;
+        }
+        let rest = StepRest::new(&self.rest, tables.step);
+        let mut workspace = Workspace::default();
+        let (mut inside, mut outside) = (0.0, tables.step);
+        let mut state = self.extended.clone();
+        for _ in 0..HALVINGS_TO_ESCAPE {
+            let middle = 0.5 * (inside + outside);
+            let mut there = state.clone();
+            self.propagator.carry(&mut there, inside, middle, &rest, &mut workspace);
+            if escaped(&there) {
+                outside = middle;
+            } else {
+                (inside, state) = (middle, there);
+            }
+        }
+        let tables = StepTables::new(&self.part, outside);
+        let Attempt::Accepted { .. } = self.attempt(&tables) else { return None };
+        observer(&self.present(&tables));
+        self.move_to_end();
+        self.grid.leave(outside);
+        Some(Outcome::Escaped { time: self.time() })
     }
 
     /// Counts the step, and takes the excitation from the grid.

@@ -34,12 +34,13 @@ impl LinearPart {
         let modes = &system.modes;
         let inverse_mass: Vec<f64> = modes.iter().map(|mode| 1.0 / mode.eta2).collect();
         let highest = modes.iter().last().map_or(0.0, |mode| mode.omega);
-        let coupling: f64 = system.theta.iter().zip(&inverse_mass).map(|(t, m)| t * t * m / p.c).sum();
+        let coupling: f64 =
+            system.theta.iter().zip(&inverse_mass).map(|(t, m)| t * t * m / system.capacitance).sum();
         let mobility: f64 = inverse_mass.iter().sum();
         let rate = highest
             + p.alpha * (highest * highest + system.c1.abs() * mobility)
             + coupling.sqrt()
-            + p.kappa / p.c
+            + p.kappa / system.capacitance
             + p.omega;
         Self {
             modes: modes.len(),
@@ -50,7 +51,7 @@ impl LinearPart {
             theta: system.theta.clone(),
             tip_slopes: modes.iter().map(|mode| mode.tip_slope).collect(),
             mutual_damping: p.alpha * system.c1,
-            inverse_capacitance: 1.0 / p.c,
+            inverse_capacitance: 1.0 / system.capacitance,
             kappa: p.kappa,
             omega: p.omega,
             rate,

@@ -59,10 +59,10 @@ impl OrbitSolver {
     /// A solver of `system` with its `map`.
     pub(super) fn with_map(system: &ReducedSystem, map: PeriodMap) -> Self {
         let n = map.dimension();
-        let p = &system.parameters;
+        let open = system.parameters.kappa == 0.0;
         Self {
             map,
-            charge: (p.kappa == 0.0).then(|| (p.c, system.theta.clone())),
+            charge: open.then(|| (system.capacitance, system.theta.clone())),
             state: vec![0.0; n],
             matrix: DMatrix::zeros(n, n),
             residual: f64::INFINITY,

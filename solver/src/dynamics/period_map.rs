@@ -298,7 +298,7 @@ fn phases(steps: usize) -> Vec<(f64, f64)> {
 /// [`PeriodMap::scales`].
 pub(super) fn scales(system: &ReducedSystem) -> Vec<f64> {
     let first = &system.modes[0];
-    let voltage = first.omega * (first.eta2 / system.parameters.c).sqrt();
+    let voltage = first.omega * (first.eta2 / system.capacitance).sqrt();
     let velocities = system.modes.iter().map(|mode| mode.omega);
     std::iter::repeat_n(1.0, system.modes.len()).chain(velocities).chain([voltage]).collect()
 }

@@ -10,6 +10,8 @@ use crate::model::{ReducedSystem, RestForce};
 
 /// Steps of one excitation period in the paper's runs.
 pub const PAPER_STEPS_PER_PERIOD: u32 = 10_000;
+/// Halvings of the step in which a run ends: they find the instant to 1e-12 of the step.
+const HALVINGS: usize = 40;
 
 /// The factor |1 + z + z^2/2 + z^3/6 + z^4/24| by which a step of length h multiplies a linear motion exp(lambda t), with
 /// z = lambda h. Where it is above 1 for a motion that decays, the steps are too long and the numbers grow by themselves.
@@ -28,7 +30,9 @@ pub struct RungeKutta4<'a> {
     system: &'a ReducedSystem,
     force: RestForce,
     steps_per_period: u32,
+    /// Whole steps done, and the share of a step beyond them once the run has ended.
     count: u64,
+    share: f64,
     state: Vec<f64>,
     stages: [Vec<f64>; 4],
     probe: Vec<f64>,
@@ -51,6 +55,7 @@ impl<'a> RungeKutta4<'a> {
             force: system.rest_force(),
             steps_per_period: steps_per_period.max(1),
             count: 0,
+            share: 0.0,
             state: initial.to_vec(),
             stages: std::array::from_fn(|_| zero.clone()),
             probe: zero,
@@ -64,7 +69,7 @@ impl<'a> RungeKutta4<'a> {
 
     /// Present time (dimensionless).
     pub fn time(&self) -> f64 {
-        self.count as f64 * self.step_length()
+        (self.count as f64 + self.share) * self.step_length()
     }
 
     /// Present state, length 2N + 1.
@@ -72,40 +77,73 @@ impl<'a> RungeKutta4<'a> {
         &self.state
     }
 
-    /// Steps done.
+    /// Whole steps done.
     pub fn steps(&self) -> u64 {
         self.count
     }
 
-    /// One step; the outcome when the tip has escaped or the magnets touched.
+    /// One step; the outcome when the tip has escaped or the magnets touched. The run then ends where it did, with a
+    /// step shortened to there.
     pub fn step(&mut self) -> Option<Outcome> {
-        let h = self.step_length();
+        let start = self.state.clone();
+        self.go(&start, 1.0);
+        if self.ended().is_none() {
+            self.count += 1;
+            return None;
+        }
+        let (mut inside, mut outside) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (inside + outside);
+            self.go(&start, middle);
+            let end = if self.ended().is_some() { &mut outside } else { &mut inside };
+            *end = middle;
+        }
+        self.go(&start, outside);
+        self.share = outside;
+        self.ended()
+    }
+
+    /// The last step of a run, shortened to end at `time`, which is within a step from now.
+    pub fn step_to(&mut self, time: f64) -> Option<Outcome> {
+        let start = self.state.clone();
+        let share = ((time - self.time()) / self.step_length()).clamp(0.0, 1.0);
+        self.go(&start, share);
+        if self.ended().is_some() {
+            // It ends within a whole step, too.
+            self.state = start;
+            return self.step();
+        }
+        self.share = share;
+        None
+    }
+
+    /// From `start` at the present grid point on by a `share` of a step.
+    fn go(&mut self, start: &[f64], share: f64) {
+        let h = share * self.step_length();
         let steps = u64::from(self.steps_per_period);
-        let halves = 2 * (self.count % steps);
         // The phase is taken within the period, where its sine keeps all digits.
-        let sine = |halves: u64| (TAU * halves as f64 / (2 * steps) as f64).sin();
-        let (start, middle, end) = (sine(halves), sine(halves + 1), sine(halves + 2));
+        let place = (self.count % steps) as f64;
+        let sine = |part: f64| (TAU * (place + part * share) / steps as f64).sin();
+        let (begin, middle, end) = (sine(0.0), sine(0.5), sine(1.0));
         let Self { system, force, state, stages: [k1, k2, k3, k4], probe, .. } = self;
         let evaluate = |state: &[f64], sine: f64, out: &mut [f64]| {
             system.derivative(state, force.rest(system.tip_displacement(state)), sine, out);
         };
-        let shift = |state: &[f64], factor: f64, stage: &[f64], out: &mut [f64]| {
-            for ((out, y), k) in out.iter_mut().zip(state).zip(stage) {
+        let shift = |factor: f64, stage: &[f64], out: &mut [f64]| {
+            for ((out, y), k) in out.iter_mut().zip(start).zip(stage) {
                 *out = y + factor * k;
             }
         };
-        evaluate(state, start, k1);
-        shift(state, 0.5 * h, k1, probe);
+        evaluate(start, begin, k1);
+        shift(0.5 * h, k1, probe);
         evaluate(probe, middle, k2);
-        shift(state, 0.5 * h, k2, probe);
+        shift(0.5 * h, k2, probe);
         evaluate(probe, middle, k3);
-        shift(state, h, k3, probe);
+        shift(h, k3, probe);
         evaluate(probe, end, k4);
-        for (i, y) in state.iter_mut().enumerate() {
-            *y += h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
+        for (i, (y, start)) in state.iter_mut().zip(start).enumerate() {
+            *y = start + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]);
         }
-        self.count += 1;
-        self.ended()
     }
 
     fn ended(&self) -> Option<Outcome> {

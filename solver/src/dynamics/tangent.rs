@@ -32,7 +32,7 @@ pub(super) struct Tangents {
 impl Tangents {
     pub(super) fn new(system: &ReducedSystem) -> Self {
         let scales = scales(system);
-        let p = &system.parameters;
+        let capacitance = system.capacitance;
         let dimension = scales.len();
         let vector = |seed: f64| -> Vec<f64> {
             // Any directions will do that are not exactly those of a faster decay.
@@ -42,7 +42,8 @@ impl Tangents {
         };
         let mut tangents = Self {
             force: system.rest_force(),
-            charge: (p.kappa == 0.0).then(|| system.theta.iter().map(|theta| theta / p.c).collect()),
+            charge: (system.parameters.kappa == 0.0)
+                .then(|| system.theta.iter().map(|theta| theta / capacitance).collect()),
             vectors: [vector(0.7), vector(1.9)],
             end: vec![0.0; dimension.next_multiple_of(BLOCK)],
             begun: false,

@@ -174,7 +174,7 @@ impl fmt::Display for Warning {
                 let word = if missing > 0.0 { "weak" } else { "strong" };
                 write!(
                     f,
-                    "the force law is {} % too {word} at closest approach",
+                    "the magnet force beyond its linear part is {} % too {word} at the closest approach under this force law",
                     short(100.0 * missing.abs())
                 )
             }

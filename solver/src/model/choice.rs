@@ -1,4 +1,4 @@
-//! The truncation in use: how many modes, and which force law.
+//! The truncation in use: how many modes, which force law, and whether the modes left out count in the circuit.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,12 +12,19 @@ pub struct ModelChoice {
     pub modes: usize,
     /// Law of the magnets' rest force.
     pub force: ForceLaw,
+    /// Whether the circuit feels the modes left out: see [`ReducedSystem::with_residual_moment`].
+    #[serde(skip_serializing_if = "is_off")]
+    pub residual_moment: bool,
+}
+
+fn is_off(choice: &bool) -> bool {
+    !choice
 }
 
 impl Default for ModelChoice {
-    /// The paper's: two modes, quadratic force.
+    /// The paper's: two modes, quadratic force, nothing of the modes left out.
     fn default() -> Self {
-        Self { modes: 2, force: ForceLaw::Quadratic }
+        Self { modes: 2, force: ForceLaw::Quadratic, residual_moment: false }
     }
 }
 
@@ -27,6 +34,7 @@ impl ModelChoice {
     /// # Errors
     /// [`ModelError`], naming what is out of range.
     pub fn system(&self, set: ParameterSet) -> Result<ReducedSystem, ModelError> {
-        ReducedSystem::new(Parameters::new(set)?, self.modes, self.force)
+        let system = ReducedSystem::new(Parameters::new(set)?, self.modes, self.force)?;
+        Ok(system.with_residual_moment(self.residual_moment))
     }
 }

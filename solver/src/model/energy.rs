@@ -17,7 +17,7 @@ pub struct Powers {
 ///
 /// The modes are orthogonal in the energy products, so kinetic plus linear potential energy is half the sum of
 /// eta_2n (dq_n/dt^2 + omega_n^2 q_n^2); R(s) adds its own potential. No work is done in the coupling theta: what
-/// the beam gives the circuit receives.
+/// the beam gives the circuit receives. The capacitance holds the energy of the modes left out where the model counts it.
 pub fn energy(system: &ReducedSystem, state: &[f64]) -> f64 {
     let n = system.modes.len();
     let mechanical: f64 = system
@@ -29,7 +29,7 @@ pub fn energy(system: &ReducedSystem, state: &[f64]) -> f64 {
     let voltage = state[2 * n];
     mechanical
         + system.rest_force().potential(system.tip_displacement(state))
-        + 0.5 * system.parameters.c * voltage * voltage
+        + 0.5 * system.capacitance * voltage * voltage
 }
 
 /// The three powers at `state` (length 2N + 1) when the excitation's phase has the sine `sin_phase`; the energy

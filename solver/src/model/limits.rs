@@ -1,5 +1,9 @@
 //! Section 5.4 and the model's own limits: what voltage the ceramic bears, where the magnets touch, and how far the
 //! beam bends before it is no linear one.
+//!
+//! The fields of section 5.4 are given in V per mil of an alternating voltage, without a word whether its peak or its
+//! root mean square is meant. They are read as peaks, and the motion's largest |v| is held against them: were they root
+//! mean squares, the limit would be 1.41 times higher for a sine. So the reading errs to the safe side.
 
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +41,40 @@ pub enum Standing {
     Marginal,
     /// Beyond it.
     Exceeded,
+}
+
+/// What can be said of a motion and the limits of its device, the worst first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Assessment {
+    /// The motion ends, or a limit is exceeded.
+    Exceeded,
+    /// The voltage lies within the published range of its limit.
+    Marginal,
+    /// What is checked is kept, but the beam sags too much for the model to be valid.
+    ModelNotValid,
+    /// What is checked is kept, but no limit is known for the voltage.
+    Unchecked,
+    /// Every limit is known and kept.
+    WithinLimits,
+}
+
+impl Assessment {
+    /// Of `checks` by `limits`, with the beam's `sag`.
+    pub fn of(checks: &[Check], limits: &Limits, sag: &Check) -> Self {
+        let some = |standing| checks.iter().any(|check| check.standing == standing);
+        if checks.is_empty() || some(Standing::Exceeded) {
+            Self::Exceeded
+        } else if some(Standing::Marginal) {
+            Self::Marginal
+        } else if sag.standing != Standing::Within {
+            Self::ModelNotValid
+        } else if limits.voltage.is_none() {
+            Self::Unchecked
+        } else {
+            Self::WithinLimits
+        }
+    }
 }
 
 /// One limit, checked.
@@ -86,7 +124,7 @@ pub struct Demand {
 #[serde(default, deny_unknown_fields)]
 pub struct Limits {
     /// Lower and upper end of the range published for the largest voltage (V); none when no ceramic is chosen, or
-    /// nothing is published for it. The peak is held against it, which is the careful reading of "VAC".
+    /// nothing is published for it. A peak: the largest |v| of the motion is held against it.
     pub voltage: Option<(f64, f64)>,
     /// Part of the gap s0 that the tip may close (dimensionless), at most 1.
     pub gap: f64,

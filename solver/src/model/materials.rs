@@ -18,7 +18,8 @@ pub struct Material {
     pub dissipation_factor: f64,
     /// Whether the dissipation factor is printed as an upper bound ("< 2 %").
     pub dissipation_is_bound: bool,
-    /// Published range of the largest alternating field (V per mil of thickness), where section 5.4 gives one.
+    /// Published range of the largest alternating field (V per mil of thickness), where section 5.4 gives one; read as a
+    /// peak.
     pub field_limit: Option<(f64, f64)>,
 }
 

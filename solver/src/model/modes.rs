@@ -80,6 +80,18 @@ impl ModeSet {
         Ok(Self { modes })
     }
 
+    /// The slope of the tip under a unit moment there that the modes left out would add, at rest (dimensionless):
+    /// the static slope of the whole beam less the sum of phi_k'(1)^2/(eta_2k omega_k^2) over the modes kept.
+    ///
+    /// The whole beam bends as phi'''' = 0, phi(0) = phi'(0) = 0, phi''(1) = 1, phi'''(1) = `c1` phi(1), a cubic with the
+    /// slope 1 - (c1/4)/(1 + c1/3) at the tip. The modes, whose phi''(1) is 0, reach it only like 1/N.
+    pub fn residual_compliance(&self, c1: f64) -> f64 {
+        let whole = 1.0 - 0.25 * c1 / (1.0 + c1 / 3.0);
+        let kept: f64 = self.modes.iter().map(|mode| (mode.tip_slope / mode.omega).powi(2) / mode.eta2).sum();
+        // Every mode left out adds to it; a nearly buckled beam may leave rounding alone.
+        (whole - kept).max(0.0)
+    }
+
     /// How many modes there are.
     pub fn len(&self) -> usize {
         self.modes.len()

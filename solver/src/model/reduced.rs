@@ -1,7 +1,9 @@
 //! The N-mode truncation (Eqs. 27-34): coefficients, right-hand side and its Jacobian side by side.
 
 use super::force::{Exact, Polynomial};
-use super::{Equilibrium, ForceLaw, Magnet, ModeSet, ModelError, Parameters, RestForce, state_dimension};
+use super::{
+    Equilibrium, ForceLaw, Magnet, ModeSet, ModelChoice, ModelError, Parameters, RestForce, state_dimension,
+};
 
 /// The N-mode system, ready to be integrated.
 ///
@@ -20,6 +22,11 @@ pub struct ReducedSystem {
     pub c1: f64,
     /// Modal couplings theta_n of Eq. (27), one a mode (dimensionless, per volt).
     pub theta: Vec<f64>,
+    /// Capacitance of the circuit's equation (dimensionless): c, and c_r of [`Self::with_residual_moment`] where that
+    /// counts.
+    pub capacitance: f64,
+    /// Whether it does.
+    pub residual_moment: bool,
 }
 
 impl ReducedSystem {
@@ -36,7 +43,27 @@ impl ReducedSystem {
         let c1 = magnet.taylor_coefficient(equilibrium.gap, 1);
         let modes = ModeSet::new(c1, parameters.eta, modes)?;
         let theta = modes.iter().map(|mode| parameters.theta * mode.tip_slope).collect();
-        Ok(Self { parameters, equilibrium, modes, law, c1, theta })
+        let capacitance = parameters.c;
+        Ok(Self { parameters, equilibrium, modes, law, c1, theta, capacitance, residual_moment: false })
+    }
+
+    /// The same system with (`on`) or without the modes left out in the circuit's equation.
+    ///
+    /// The moment theta v at the tip bends every mode, those left out quasi-statically: mode k > N follows as
+    /// q_k = -theta_k v/(eta_2k omega_k^2), which gives the current -theta_k^2/(eta_2k omega_k^2) dv/dt. Together they
+    /// are a capacitance beside c, c_r = theta^2 ([`ModeSet::residual_compliance`]): (c + c_r) dv/dt + kappa v is the
+    /// current of the modes kept, and c_r v^2/2 is the energy stored in the others. Their inertia, their damping and
+    /// what they add to the tip displacement stay left out.
+    #[must_use]
+    pub fn with_residual_moment(self, on: bool) -> Self {
+        let p = &self.parameters;
+        let residual = if on { p.theta * p.theta * self.modes.residual_compliance(self.c1) } else { 0.0 };
+        Self { capacitance: p.c + residual, residual_moment: on, ..self }
+    }
+
+    /// Which truncation this is.
+    pub fn choice(&self) -> ModelChoice {
+        ModelChoice { modes: self.modes.len(), force: self.law, residual_moment: self.residual_moment }
     }
 
     /// The same device under another excitation: everything that depends on the structure is kept.
@@ -56,10 +83,12 @@ impl ReducedSystem {
         let parameters = Parameters::new(set)?;
         let structure = |set: &super::ParameterSet| [set.c0, set.d, set.h, set.eta];
         if structure(&set) != structure(&self.parameters) {
-            return Self::new(parameters, self.modes.len(), self.law);
+            let system = Self::new(parameters, self.modes.len(), self.law)?;
+            return Ok(system.with_residual_moment(self.residual_moment));
         }
         let theta = self.modes.iter().map(|mode| parameters.theta * mode.tip_slope).collect();
-        Ok(Self { parameters, theta, ..self.clone() })
+        let system = Self { parameters, theta, ..self.clone() };
+        Ok(system.with_residual_moment(self.residual_moment))
     }
 
     /// Whether nothing takes energy out: no viscosity, and no load that feels the beam.
@@ -106,12 +135,12 @@ impl ReducedSystem {
         state[n..2 * n].iter().sum()
     }
 
-    /// Eq. (31), section 2.4: dv/dt = (sum of theta_n dq_n/dt - kappa v) / c.
+    /// Eq. (31), section 2.4: dv/dt = (sum of theta_n dq_n/dt - kappa v) / c, c being [`Self::capacitance`].
     #[doc(alias = "eq-31")]
     pub fn voltage_rate(&self, state: &[f64]) -> f64 {
         let n = self.modes.len();
         let current: f64 = self.theta.iter().zip(&state[n..]).map(|(theta, rate)| theta * rate).sum();
-        (current - self.parameters.kappa * state[2 * n]) / self.parameters.c
+        (current - self.parameters.kappa * state[2 * n]) / self.capacitance
     }
 
     /// Eqs. (32), (34), (60), sections 2.4-3.3: the time derivative of `state` under excitation phase `omega t`
@@ -149,9 +178,9 @@ impl ReducedSystem {
             jacobian[(n + k, k)] -= mode.omega * mode.omega;
             jacobian[(n + k, n + k)] -= p.alpha * mode.omega * mode.omega;
             jacobian[(n + k, 2 * n)] = -self.theta[k] / mode.eta2;
-            jacobian[(2 * n, n + k)] = self.theta[k] / p.c;
+            jacobian[(2 * n, n + k)] = self.theta[k] / self.capacitance;
         }
-        jacobian[(2 * n, 2 * n)] = -p.kappa / p.c;
+        jacobian[(2 * n, 2 * n)] = -p.kappa / self.capacitance;
         jacobian
     }
 }

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use super::{Device, ElectricalScaling};
 
-/// Standard gravity (m/s^2), the g in which accelerations of the base are given, always by their peak.
+/// Standard gravity (m/s^2), the g in which accelerations of the base are given, always as peaks: B (2 pi f)^2. The
+/// gravity that makes a beam sag is a dimension of its device.
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// The SI values of the dimensionless units of a device. Volts are volts.

@@ -38,7 +38,7 @@ impl DynamicStiffness {
             theta: system.theta.clone(),
             alpha: p.alpha,
             c1: system.c1,
-            c: p.c,
+            c: system.capacitance,
             kappa: p.kappa,
         }
     }

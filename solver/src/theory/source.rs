@@ -9,7 +9,7 @@ use crate::model::{ParameterSet, ReducedSystem};
 /// conductance kappa the voltage has the complex amplitude I / (kappa + Y).
 ///
 /// With M_0 the dynamic stiffness without the circuit, F the modal forces and theta the modal couplings, Eqs. (31),
-/// (32) give I = s theta^T M_0^-1 F and Y = s (c + theta^T M_0^-1 theta) at s = i omega.
+/// (32), with c the system's capacitance, give I = s theta^T M_0^-1 F and Y = s (c + theta^T M_0^-1 theta) at s = i omega.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Source {
     /// I (dimensionless current) under the system's own excitation.
@@ -40,7 +40,7 @@ impl Source {
         };
         let source = Self {
             current: s * theta.dot(&moved),
-            admittance: s * (Complex::from(p.c) + theta.dot(&answer)),
+            admittance: s * (Complex::from(system.capacitance) + theta.dot(&answer)),
         };
         if source.current.is_finite() && source.admittance.is_finite() { Ok(source) } else { Err(undamped) }
     }

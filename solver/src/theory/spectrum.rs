@@ -72,10 +72,10 @@ fn energy_matrix(system: &ReducedSystem) -> DMatrix<f64> {
             matrix[(n + k, n + j)] = p.alpha * system.c1 / (mode.eta2 * other.eta2).sqrt();
         }
         matrix[(n + k, n + k)] -= p.alpha * mode.omega * mode.omega;
-        let coupling = system.theta[k] / (mode.eta2 * p.c).sqrt();
+        let coupling = system.theta[k] / (mode.eta2 * system.capacitance).sqrt();
         matrix[(n + k, 2 * n)] = -coupling;
         matrix[(2 * n, n + k)] = coupling;
     }
-    matrix[(2 * n, 2 * n)] = -p.kappa / p.c;
+    matrix[(2 * n, 2 * n)] = -p.kappa / system.capacitance;
     matrix
 }

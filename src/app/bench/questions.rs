@@ -103,7 +103,7 @@ pub(in crate::app) fn materials(view: &View) -> Table {
 pub(in crate::app) fn trust(view: &View) -> Table {
     // The model in view plays no role: every entry has its own.
     let mut scenario = view.scenario.clone().essential();
-    let ModelChoice { modes, force } = ModelChoice::default();
+    let ModelChoice { modes, force, .. } = ModelChoice::default();
     scenario.model.force = force;
     if scenario.initial.is_none() {
         scenario.model.modes = modes;

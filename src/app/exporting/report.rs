@@ -154,8 +154,13 @@ fn model_in_words(scenario: &Scenario) -> String {
         ForceLaw::Taylor(order) => fill("Taylor (order {order})", &[("order", &order)]),
         ForceLaw::Exact => tr("exact").to_owned(),
     };
-    match scenario.model.modes {
+    let text = match scenario.model.modes {
         1 => fill("1 mode, {law} magnet force", &[("law", &law)]),
         modes => fill("{modes} modes, {law} magnet force", &[("modes", &modes), ("law", &law)]),
+    };
+    if scenario.model.residual_moment {
+        fill("{text}; modes left out count in the circuit", &[("text", &text)])
+    } else {
+        text
     }
 }

@@ -69,6 +69,7 @@ pub(super) fn fields() -> Vec<Field> {
     }
     add("/scenario/model/modes", Kind::Whole(1, MAX_MODES));
     add("/scenario/model/force", Kind::Force);
+    add("/scenario/model/residual_moment", Kind::Flag);
     add("/scenario/t_end", Kind::Number(END_TIME, ""));
     add("/scenario/initial", Kind::Numbers(None, (-1e6, 1e6)));
     for dimension in Dimension::ALL {

@@ -66,6 +66,7 @@ fn every_field_of_a_view_is_in_links_and_no_other() {
     view.scenario.device = Some(Device { ceramic: Some(Ceramic::Apc850), ..Device::default() });
     view.scenario.scaling = ElectricalScaling::Consistent;
     view.scenario.initial = Some(vec![0.0; 5]);
+    view.scenario.model.residual_moment = true;
     view.design.search.third = Some(Side::of(Dimension::MagnetDistance));
     let (value, mut paths) = (view.to_value(), Vec::new());
     leaves(&value, "", &mut paths);
@@ -89,12 +90,12 @@ fn a_link_is_readable() {
     view.scenario = Scenario::default();
     assert_eq!(write(&View { tab: Tab::Explore, ..view.clone() }), "v=1");
     view.scenario.parameters = ParameterSet { alpha: 1e-4, omega: 8.0969, ..Default::default() };
-    view.scenario.model = ModelChoice { modes: 3, force: ForceLaw::Taylor(5) };
+    view.scenario.model = ModelChoice { modes: 3, force: ForceLaw::Taylor(5), residual_moment: true };
     view.scenario.initial = Some(vec![0.01, 0.0, -1e-7, 0.0, 0.0, 0.0, 14.2]);
     view.scenario.device = Some(Device { beam_length: 0.3, resistance: f64::INFINITY, ..Default::default() });
     view.sweep.range = Some((7.5, 8.5));
     view.plane = [Parameter::Omega, Parameter::Alpha];
-    let link = "v=1&alpha=1e-4&omega=8.0969&modes=3&force=taylor5&initial=0.01+0+-1e-7+0+0+0+14.2\
+    let link = "v=1&alpha=1e-4&omega=8.0969&modes=3&force=taylor5&residual_moment=true&initial=0.01+0+-1e-7+0+0+0+14.2\
                 &beam_length=0.3&resistance=open&tab=stability&sweep.range=7.5+8.5&plane=omega+alpha";
     assert_eq!(write(&view), link);
     assert_eq!(read(&format!("#{link}"), &View::default()), (view, Vec::new()));

@@ -10,7 +10,7 @@ use crate::model::{ForceLaw, Parameter};
 const FRAME: f64 = 1.0 / 60.0;
 
 fn view(parameters: ParameterSet, force: ForceLaw) -> View {
-    let model = ModelChoice { modes: 2, force };
+    let model = ModelChoice { force, ..Default::default() };
     let mut view = View { tab: Tab::Live, ..View::default() };
     view.scenario = Scenario { parameters, model, ..Scenario::default() };
     view

@@ -81,9 +81,13 @@ fn round(value: f64) -> f64 {
     round_significant(value, 12)
 }
 
-/// Takes a changed device over, or says why it is none.
+/// Takes a changed device over, or says why it is none. The consistent scaling is that of a device of one's own, for
+/// which the modes left out count in the circuit; the printed one is the paper's, where they do not.
 pub(super) fn adopt(context: &mut Context<'_>, device: Device, scaling: ElectricalScaling) {
     let mut scenario = context.view.scenario.clone();
+    if scaling != scenario.scaling {
+        scenario.model.residual_moment = scaling == ElectricalScaling::Consistent;
+    }
     let changed = scenario.set_device(device, scaling).and_then(|()| scenario.validate().map(|_| ()));
     let refused = |error| refusal::in_words(&device, scaling, &error);
     let taken = changed.map(|()| Box::new(scenario)).map_err(refused);

@@ -89,6 +89,7 @@ fn changes(own: &Scenario, shown: &Scenario) -> Vec<&'static str> {
     let rest = [
         (own.model.modes != shown.model.modes, tr("modes")),
         (own.model.force != shown.model.force, tr("force law")),
+        (own.model.residual_moment != shown.model.residual_moment, tr("the modes left out")),
         (own.initial != shown.initial, tr("start")),
         (own.t_end != shown.t_end, tr("duration")),
     ];

@@ -48,7 +48,7 @@ fn start_at(shown: &crate::app::session::Shown, v: f64, dv_dt: f64) -> Vec<f64> 
     let mut state = vec![0.0; state_dimension(n)];
     state[2 * n] = v;
     if system.theta[0] > 0.0 {
-        state[n] = (p.c * dv_dt + p.kappa * v) / system.theta[0];
+        state[n] = (system.capacitance * dv_dt + p.kappa * v) / system.theta[0];
     }
     state
 }

@@ -124,7 +124,19 @@ fn model(ui: &mut Ui, scenario: &mut Scenario) {
     ui.add_space(4.0);
     ui.label(tr("Magnet force beyond its linear part, Eq. 16"));
     force(ui, scenario);
+    ui.add_space(4.0);
+    residual_moment(ui, scenario);
     ui.add_space(6.0);
+}
+
+/// Whether the circuit feels the modes left out.
+fn residual_moment(ui: &mut Ui, scenario: &mut Scenario) {
+    let text = tr("Modes left out count in the circuit");
+    let explanation = tr(
+        "The moment of the voltage bends the modes that are left out, too. With this they count in the circuit as a \
+         capacitance beside c. Off in the paper, whose modes converge only like 1/N; on for a device of your own.",
+    );
+    ui.checkbox(&mut scenario.model.residual_moment, text).on_hover_text(explanation);
 }
 
 /// The choice of the number of modes.

@@ -41,8 +41,12 @@ const SENTENCES: [&str; 132] = [
     // Warnings.
     marked("neighbouring motions diverge until it settles, at t = {time}"),
     marked("to decide would take about {time} more in t"),
-    marked("the force law is {percent} % too weak at closest approach"),
-    marked("the force law is {percent} % too strong at closest approach"),
+    marked(
+        "the magnet force beyond its linear part is {percent} % too weak at the closest approach under this force law",
+    ),
+    marked(
+        "the magnet force beyond its linear part is {percent} % too strong at the closest approach under this force law",
+    ),
     marked("the tip passes through the magnet: only the exact force law knows of contact"),
     marked("the tip moves by {part} of the beam's length, where the beam is no linear one"),
     marked("the escape is over the barrier of the truncated force law; the exact one has none"),

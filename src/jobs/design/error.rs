@@ -1,5 +1,6 @@
 //! Why a design question has no answer.
 
+use crate::dynamics::sweep::SweepError;
 use crate::dynamics::{IntegrationError, OrbitError};
 use crate::model::ModelError;
 use crate::theory::TheoryError;
@@ -16,6 +17,9 @@ pub enum DesignError {
     /// A periodic motion cannot be found.
     #[error(transparent)]
     Orbit(#[from] OrbitError),
+    /// A sweep has no answer.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
     /// The linear theory has no answer.
     #[error(transparent)]
     Theory(#[from] TheoryError),

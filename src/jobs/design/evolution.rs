@@ -45,6 +45,27 @@ impl Evolution {
         &self.trials
     }
 
+    /// The members of the population that are best, at most `count`, each farther than `apart` (of the cube's side) from
+    /// those before it, with their ranks.
+    pub fn best(&self, count: usize, apart: f64) -> Vec<(Vec<f64>, (f64, f64))> {
+        let mut order: Vec<usize> = (0..self.population.len()).collect();
+        let by_rank = |i: usize| self.ranks[i];
+        order.sort_by(|i, j| {
+            let (a, b) = (by_rank(*i), by_rank(*j));
+            b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
+        });
+        let mut chosen: Vec<(Vec<f64>, (f64, f64))> = Vec::new();
+        for i in order {
+            let member = &self.population[i];
+            let distance =
+                |other: &[f64]| member.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            if chosen.len() < count && chosen.iter().all(|(other, _)| distance(other) > apart) {
+                chosen.push((member.clone(), self.ranks[i]));
+            }
+        }
+        chosen
+    }
+
     /// Takes the ranks of this generation's candidates, larger is better, and makes the next generation.
     pub fn advance(&mut self, ranks: &[(f64, f64)]) {
         let trials = std::mem::take(&mut self.trials);
@@ -96,7 +117,7 @@ impl Evolution {
 
 /// Steele, Lea & Flood's SplitMix64: eight lines that pass the usual tests, the same on every machine.
 #[derive(Debug, Clone)]
-struct SplitMix(u64);
+pub(super) struct SplitMix(pub(super) u64);
 
 impl SplitMix {
     fn next(&mut self) -> u64 {
@@ -108,7 +129,7 @@ impl SplitMix {
     }
 
     /// In [0, 1).
-    fn unit(&mut self) -> f64 {
+    pub(super) fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 

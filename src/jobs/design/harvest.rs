@@ -3,9 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::dielectric::{Settled, settle};
 use super::linear::linear_balance;
 use super::{DesignError, Plant};
-use crate::dynamics::{Balance, Effort, ForcedMotion, Motion, reach};
+use crate::dynamics::{Balance, Effort, ForcedMotion, Motion};
 use crate::model::{Demand, ReducedSystem};
 use crate::scenario::Scenario;
 
@@ -79,6 +80,9 @@ pub struct Lasting {
     pub motion: Motion,
     /// What it delivers; `None` when it ended.
     pub harvest: Option<Harvest>,
+    /// Frequency (Hz) of the largest line of its voltage, at which its dielectric loss is taken: half of the excitation's
+    /// for many a doubled motion. `None` without such a loss.
+    pub dielectric_frequency: Option<f64>,
 }
 
 /// Three motions of one device under one excitation.
@@ -140,14 +144,18 @@ pub fn operating(scenario: &Scenario) -> Result<Operating, DesignError> {
 /// The motion that the start of `system`, one of `plant`, in `initial` leads to.
 ///
 /// # Errors
-/// As [`reach`].
+/// As [`reach`](crate::dynamics::reach), and when the conductance of the dielectric loss is out of range.
 pub fn lasting(plant: &Plant, system: &ReducedSystem, initial: &[f64]) -> Result<Lasting, DesignError> {
-    let reached = reach(system, initial, Effort::cell())?;
+    let Settled { plant, system, reached, omega } = settle(plant, system, initial, Effort::cell())?;
     let motion = reached.motion;
     let balance = match (&reached.orbit, motion) {
         (_, Motion::Escape { .. } | Motion::Contact { .. }) => None,
-        (Some(orbit), _) => Balance::of(system, &orbit.state, orbit.periods)?,
-        (None, _) => Balance::of(system, &reached.state, RECORD)?,
+        (Some(orbit), _) => Balance::of(&system, &orbit.state, orbit.periods)?,
+        (None, _) => Balance::of(&system, &reached.state, RECORD)?,
     };
-    Ok(Lasting { motion, harvest: balance.map(|balance| Harvest::new(plant, system, &balance)) })
+    Ok(Lasting {
+        motion,
+        harvest: balance.map(|balance| Harvest::new(&plant, &system, &balance)),
+        dielectric_frequency: omega.map(|omega| plant.units.hertz(omega)),
+    })
 }

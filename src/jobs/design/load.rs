@@ -3,13 +3,15 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::dielectric::{Settled, settle};
 use super::linear::linear_peak;
-use super::{Asked, Bounds, DesignError, HarvestPoint, Plant};
+use super::peak::{Peak, highest};
+use super::{Asked, Bounds, DesignError, Plant};
 use crate::dynamics::Effort;
 use crate::dynamics::motion::Cell;
 use crate::dynamics::orbit::Measures;
-use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError, reach};
-use crate::jobs::response::response;
+use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError};
+use crate::jobs::response::{Followed, branches};
 use crate::model::{Limits, ModelError, Parameter, ReducedSystem, Shaking};
 use crate::scenario::Scenario;
 use crate::theory::{Source, TheoryError};
@@ -129,38 +131,13 @@ pub fn reached_loads(
         let plant = plant.with_resistance(*resistance)?;
         let system = plant.system()?;
         let from = carried.as_ref().unwrap_or(&start);
-        let reached = reach(&system, from, Effort::cell())?;
+        let Settled { plant, reached, .. } = settle(&plant, &system, from, Effort::cell())?;
         let point = LoadPoint::of_cell(&plant, &reached.cell());
         let orbit = reached.orbit.map(|orbit| orbit.state);
         carried = point.stable.then(|| orbit.unwrap_or(reached.state));
         points.push(point);
     }
     Ok((points, carried))
-}
-
-/// The stable periodic motion that gives most, and where.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
-pub struct Peak {
-    /// Frequency (Hz).
-    pub frequency: f64,
-    /// Mean power in the load (W).
-    pub power: f64,
-    /// Its period in excitation periods.
-    pub periods: usize,
-    /// Largest |v| (V).
-    pub v_peak: f64,
-    /// Lowest and highest tip displacement (mm).
-    pub tip: (f64, f64),
-    /// Largest |slope| at the tip (rad).
-    pub slope: f64,
-}
-
-impl Peak {
-    /// What it asks of the device.
-    pub fn asked(&self) -> Asked {
-        let Self { v_peak, tip, slope, .. } = *self;
-        Asked { v_peak, tip, slope }
-    }
 }
 
 /// The best frequency under a load.
@@ -180,9 +157,8 @@ pub struct BestFrequency {
 }
 
 /// The best frequency for a load of `resistance` (ohm) with omega in `window` (dimensionless), the base shaken
-/// so: of the linear device, and
-/// of the stable periodic motions on the forced branch and its doubled ones, at the points that represent them, all
-/// of them and those within `limits`.
+/// so: of the linear device, and of
+/// the stable periodic motions on the forced branch and its doubled ones, all of them and those within `limits`.
 ///
 /// # Errors
 /// [`DesignError`].
@@ -200,26 +176,18 @@ pub fn best_frequency(
         return Err(TheoryError::Undamped { omega }.into());
     }
     // Without any branch the device still has its linear one.
-    let curves = match response(&plant.scenario, (Parameter::Omega, shaking), window) {
+    let branches = match branches(&plant.scenario, (Parameter::Omega, shaking), window) {
         Err(error @ OrbitError::Model(ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
             return Err(error.into());
         }
-        curves => curves.unwrap_or_default(),
+        branches => branches.unwrap_or_default(),
     };
-    let points = curves.iter().flat_map(|curve| curve.points.iter().map(move |point| (curve.periods, point)));
-    let stable = points.filter(|(_, point)| point.multiplier < 1.0).map(|(periods, point)| {
-        let HarvestPoint { frequency, power, v_peak, tip, slope, .. } =
-            HarvestPoint::of_branch(&plant, point);
-        Peak { frequency, power, periods, v_peak, tip, slope }
-    });
-    let highest = |a: &Peak, b: &Peak| a.power.total_cmp(&b.power);
-    let within = stable.clone().filter(|peak| bounds.allows(&peak.asked()));
     Ok(BestFrequency {
         resistance,
         linear: [plant.units.hertz(omega), power],
-        cut: curves.iter().any(|curve| curve.cut),
-        within_limits: within.max_by(highest),
-        stable: stable.max_by(highest),
+        stable: highest(&plant, &branches, None),
+        within_limits: highest(&plant, &branches, Some(&bounds)),
+        cut: branches.iter().any(Followed::is_cut),
     })
 }
 

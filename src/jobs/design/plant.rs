@@ -1,7 +1,7 @@
 //! A scenario as a plant that delivers watts: its units, its load, and the dielectric loss beside the load.
 
 use crate::model::materials::dielectric_conductance;
-use crate::model::{ModelError, Parameter, ParameterSet, Parameters, ReducedSystem, Shaking, Units};
+use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem, Shaking, Units};
 use crate::scenario::Scenario;
 
 /// A scenario with its SI units and losses.
@@ -9,7 +9,7 @@ use crate::scenario::Scenario;
 pub struct Plant {
     /// The scenario whose kappa is the whole conductance: the load and, where the device has a loss tangent, the
     /// dielectric loss at the scenario's own frequency, a constant conductance beside the load. Everything dynamic is
-    /// computed from it.
+    /// computed from it; the motion reached under one excitation then gets the loss at its own main frequency.
     pub scenario: Scenario,
     /// Conductance of the load alone (dimensionless).
     pub load: f64,
@@ -51,6 +51,14 @@ impl Plant {
         Ok(Self { scenario, load, leakage, units, shaking: Shaking::Amplitude })
     }
 
+    /// The same plant with another conductance of the dielectric loss (dimensionless).
+    ///
+    /// # Errors
+    /// [`ModelError`] when the whole conductance is out of range.
+    pub fn with_leakage(&self, leakage: f64) -> Result<Self, ModelError> {
+        Ok(Self::with(&self.scenario, self.load, leakage)?.shaken(self.shaking))
+    }
+
     /// The same plant with a load of `resistance` (ohm).
     ///
     /// # Errors
@@ -84,7 +92,7 @@ impl Plant {
     /// As [`ReducedSystem::new`].
     pub fn without_magnets(&self) -> Result<ReducedSystem, ModelError> {
         let set = ParameterSet { c0: 0.0, ..self.scenario.parameters };
-        ReducedSystem::new(Parameters::new(set)?, self.scenario.model.modes, self.scenario.model.force)
+        self.scenario.model.system(set)
     }
 
     /// Mean power in the load (W), V^2/R_eq, at a root mean square voltage (V).

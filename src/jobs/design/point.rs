@@ -7,7 +7,7 @@ use crate::dynamics::sweep::SweepPoint;
 use crate::jobs::response::ResponsePoint;
 
 /// A point of a curve over frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct HarvestPoint {
     /// Frequency (Hz).
     pub frequency: f64,

@@ -9,9 +9,9 @@ use crate::dynamics::Effort;
 use crate::dynamics::tongue::Window;
 use crate::dynamics::{Motion, reach};
 use crate::model::force::Exact;
-use crate::model::{ForceLaw, MAX_MODES, ReducedSystem};
+use crate::model::{ForceLaw, MAX_MODES, ModelChoice, ParameterSet, ReducedSystem};
 use crate::scenario::Scenario;
-use crate::theory::Resonance;
+use crate::theory::{ContinuousResponse, LinearResponse, Resonance};
 
 /// The force laws compared, from the paper's to the magnets' own.
 pub const LAWS: [ForceLaw; 4] =
@@ -75,6 +75,38 @@ pub fn trust_entry(
         Quantity::Voltage | Quantity::Threshold(_) => cell.v_rms,
     });
     Ok(TrustEntry { modes, law, value, motion: Some(cell.motion) })
+}
+
+/// How far off the voltage of the linear device is because modes are left out: their moment converges only like 1/N.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct MomentError {
+    /// Number of modes.
+    pub modes: usize,
+    /// Amplitude of the voltage over that of the continuous beam, less 1 (dimensionless); `None` where there is none to
+    /// compare with, as without coupling.
+    pub without: Option<f64>,
+    /// The same when the modes left out count in the circuit.
+    pub with: Option<f64>,
+}
+
+/// The error of `modes` modes at the frequency of `scenario`, the magnets' force taken as linear.
+///
+/// # Errors
+/// [`DesignError`].
+pub fn moment_errors(scenario: &Scenario, modes: usize) -> Result<MomentError, DesignError> {
+    let plant = Plant::new(scenario)?;
+    let chosen = |residual_moment| {
+        let model = ModelChoice { modes, residual_moment, ..plant.scenario.model };
+        // Relative to the amplitude of the base, which may be 0.
+        model.system(ParameterSet { beta: 1e-3, ..plant.scenario.parameters })
+    };
+    let (without, with) = (chosen(false)?, chosen(true)?);
+    let whole = ContinuousResponse::new(&without)?.voltage.norm();
+    let error = |system: &ReducedSystem| -> Result<Option<f64>, DesignError> {
+        let voltage = LinearResponse::new(system)?.voltage.norm();
+        Ok((whole > 0.0).then(|| voltage / whole - 1.0))
+    };
+    Ok(MomentError { modes, without: error(&without)?, with: error(&with)? })
 }
 
 /// How far a force law is off.

@@ -1,11 +1,12 @@
 //! The bench's pieces of work.
 
-use super::DesignError;
+use super::change::{Way, between};
 use super::find::{Evaluation, FindQuestion, evaluate};
 use super::harvest::{Operating, operating};
 use super::load::{BestFrequency, LoadPoint, best_frequency, forced_loads, reached_loads};
 use super::materials::{MaterialRow, material_row};
 use super::trust::{Quantity, TrustEntry, trust_entry};
+use super::{DesignError, HarvestPoint};
 use crate::dynamics::tongue::Window;
 use crate::model::materials::Ceramic;
 use crate::model::{ForceLaw, Limits, Shaking};
@@ -48,6 +49,19 @@ pub enum DesignWork {
         shaking: Shaking,
         /// What must be kept.
         limits: Limits,
+    },
+    /// Where a curve over frequency changes its motion.
+    Change {
+        /// The device.
+        scenario: Scenario,
+        /// What of the base's motion stays at other frequencies.
+        shaking: Shaking,
+        /// How its motions are reached.
+        way: Way,
+        /// Two neighbours (omega) in their order.
+        neighbours: (f64, f64),
+        /// Difference in power (W) that is small enough.
+        difference: f64,
     },
     /// A ceramic on the device.
     Material {
@@ -98,6 +112,8 @@ pub enum DesignFinding {
     },
     /// The best frequency.
     BestFrequency(BestFrequency),
+    /// The points between two neighbours of a curve; nothing where the motion ends.
+    Change(Vec<Option<HarvestPoint>>),
     /// A ceramic's row.
     Material(Box<MaterialRow>),
     /// An entry.
@@ -124,6 +140,9 @@ impl DesignWork {
             Self::BestFrequency { scenario, resistance, window, shaking, limits } => {
                 let window = (*window, *shaking);
                 DesignFinding::BestFrequency(best_frequency(scenario, *resistance, window, *limits)?)
+            }
+            Self::Change { scenario, shaking, way, neighbours, difference } => {
+                DesignFinding::Change(between(scenario, *shaking, way, *neighbours, *difference)?)
             }
             Self::Material { scenario, ceramic, mode, resonance, window } => {
                 let row = material_row(scenario, *ceramic, *mode, *resonance, *window)?;

@@ -1,8 +1,10 @@
-//! The search for a design: differential evolution, a generation of independent candidates at a time.
+//! The search for a design: differential evolution, a generation of independent candidates at a time, then rounds of a
+//! local search from the best places, and in the end the neighbours of the best one, which tell a summit from a cliff.
 
 use super::Study;
 use crate::jobs::design::evolution::Evolution;
-use crate::jobs::design::find::{Evaluation, FindQuestion};
+use crate::jobs::design::find::{Evaluation, FindQuestion, Objective, Variable};
+use crate::jobs::design::polish::Polish;
 use crate::jobs::design::{DesignFinding, DesignWork};
 use crate::jobs::motions::at_place;
 use crate::jobs::work::{Finding, Work};
@@ -11,6 +13,15 @@ use crate::scenario::Scenario;
 
 /// Members of the population for each variable.
 const PER_VARIABLE: usize = 8;
+/// Places from which the local search starts, and how far apart they are at least (of the ranges).
+const STARTS: usize = 3;
+const APART: f64 = 0.08;
+/// Rounds of the local search.
+pub const ROUNDS: usize = 16;
+/// How far the neighbours of the best are, as a part of each variable's value.
+pub const NEIGHBOURS: f64 = 1e-3;
+/// Part of the objective that a neighbour may lose on a summit; what loses more lies on a cliff.
+const CLIFF: f64 = 0.1;
 /// Numbers of generations that may be asked for.
 pub const GENERATIONS: (usize, usize) = (1, 500);
 
@@ -23,14 +34,46 @@ pub struct Candidate {
     pub evaluation: Evaluation,
 }
 
+/// What a small change of one variable does to the best candidate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensitivity {
+    /// The variable's value before and after it, each with what is known there.
+    pub neighbours: [(f64, Evaluation); 2],
+    /// The part of the objective that the worse of them loses (dimensionless), 1 where nothing lasts; negative when both
+    /// are better.
+    pub loss: f64,
+}
+
+impl Sensitivity {
+    /// Whether the best stands on a cliff: a change by [`NEIGHBOURS`] takes more than a tenth.
+    pub fn cliff(&self) -> bool {
+        !(self.loss <= CLIFF)
+    }
+}
+
+/// What a search does.
+#[derive(Debug, Clone)]
+enum Phase {
+    Evolution(Evolution),
+    Polish(Polish),
+    Neighbours,
+    Done,
+}
+
 /// A search under way. It is cancelled by dropping it.
 #[derive(Debug, Clone)]
 pub struct FindStudy {
     question: FindQuestion,
     generations: usize,
-    evolution: Evolution,
+    seed: u64,
+    phase: Phase,
+    /// The places tried at present, in the unit cube; those of the neighbours are values.
+    trials: Vec<Vec<f64>>,
+    /// How many sets of trials are done, and where the tickets of the present one begin.
     generation: usize,
+    first_ticket: usize,
     handed: usize,
+    sensitivities: Vec<Sensitivity>,
     evaluations: Vec<Option<Evaluation>>,
     best: Option<Candidate>,
     history: Vec<Candidate>,
@@ -54,14 +97,18 @@ impl FindStudy {
         }
         let dimension = question.variables.len();
         let evolution = Evolution::new(dimension, PER_VARIABLE * dimension, seed, own(&question));
-        let size = evolution.trials().len();
+        let trials = evolution.trials().to_vec();
         Ok(Self {
             question,
             generations,
-            evolution,
+            seed,
+            phase: Phase::Evolution(evolution),
+            evaluations: vec![None; trials.len()],
+            trials,
             generation: 0,
+            first_ticket: 0,
             handed: 0,
-            evaluations: vec![None; size],
+            sensitivities: Vec::new(),
             best: None,
             history: Vec::new(),
             visited: Vec::new(),
@@ -85,7 +132,12 @@ impl FindStudy {
         self.best.as_ref()
     }
 
-    /// The best candidate after each generation.
+    /// What a small change of each variable does to the best candidate, in their order; empty until the search is done.
+    pub fn sensitivities(&self) -> &[Sensitivity] {
+        &self.sensitivities
+    }
+
+    /// The best candidate after each generation, and then after each round of the local search.
     pub fn history(&self) -> &[Candidate] {
         &self.history
     }
@@ -114,11 +166,59 @@ impl FindStudy {
         self.question.variables.iter().zip(trial).map(|(variable, share)| variable.at(*share)).collect()
     }
 
-    /// Takes a whole generation over.
+    /// The values of a trial.
+    fn values_of(&self, trial: &[f64]) -> Vec<f64> {
+        if matches!(self.phase, Phase::Neighbours) { trial.to_vec() } else { self.values(trial) }
+    }
+
+    /// Takes a whole set of trials over.
     fn advance(&mut self) {
         let objective = self.question.objective;
         let evaluations: Vec<Evaluation> = self.evaluations.iter().flatten().copied().collect();
-        for (trial, evaluation) in self.evolution.trials().to_vec().iter().zip(&evaluations) {
+        let ranks: Vec<_> = evaluations.iter().map(|evaluation| evaluation.rank(&objective)).collect();
+        if matches!(self.phase, Phase::Neighbours) {
+            self.compare(&evaluations);
+        } else {
+            self.take_over(&evaluations);
+        }
+        self.generation += 1;
+        self.phase = match std::mem::replace(&mut self.phase, Phase::Done) {
+            Phase::Evolution(mut evolution) => {
+                evolution.advance(&ranks);
+                if self.generation < self.generations {
+                    self.begin(evolution.trials().to_vec());
+                    Phase::Evolution(evolution)
+                } else {
+                    let polish = Polish::new(evolution.best(STARTS, APART), self.seed);
+                    self.begin(polish.trials().to_vec());
+                    Phase::Polish(polish)
+                }
+            }
+            Phase::Polish(mut polish) => {
+                polish.advance(&ranks);
+                if self.generation < self.generations + ROUNDS {
+                    self.begin(polish.trials().to_vec());
+                    Phase::Polish(polish)
+                } else {
+                    self.begin(self.neighbours());
+                    Phase::Neighbours
+                }
+            }
+            Phase::Neighbours | Phase::Done => Phase::Done,
+        };
+    }
+
+    /// Makes the next set of trials.
+    fn begin(&mut self, trials: Vec<Vec<f64>>) {
+        self.first_ticket += self.evaluations.len();
+        self.evaluations = vec![None; trials.len()];
+        (self.trials, self.handed) = (trials, 0);
+    }
+
+    /// Keeps the best of the candidates.
+    fn take_over(&mut self, evaluations: &[Evaluation]) {
+        let objective = self.question.objective;
+        for (trial, evaluation) in self.trials.iter().zip(evaluations) {
             let candidate = Candidate { values: self.values(trial), evaluation: *evaluation };
             let better = self
                 .best
@@ -130,12 +230,45 @@ impl FindStudy {
             self.visited.push(candidate);
         }
         self.history.extend(self.best.clone());
-        let ranks: Vec<_> = evaluations.iter().map(|evaluation| evaluation.rank(&objective)).collect();
-        self.evolution.advance(&ranks);
-        self.generation += 1;
-        self.handed = 0;
-        self.evaluations.iter_mut().for_each(|evaluation| *evaluation = None);
     }
+
+    /// Values of the neighbours of the best, two a variable.
+    fn neighbours(&self) -> Vec<Vec<f64>> {
+        let Some(best) = &self.best else { return Vec::new() };
+        let mut neighbours = Vec::new();
+        for (i, variable) in self.question.variables.iter().enumerate() {
+            for sign in [-1.0, 1.0] {
+                let mut values = best.values.clone();
+                values[i] = neighbour(variable, values[i], sign);
+                neighbours.push(values);
+            }
+        }
+        neighbours
+    }
+
+    fn compare(&mut self, evaluations: &[Evaluation]) {
+        let Some(best) = &self.best else { return };
+        let smaller_is_better = matches!(self.question.objective, Objective::Threshold(_));
+        let loss = |there: &Evaluation| match (best.evaluation.value, there.value) {
+            (Some(best), Some(there)) if smaller_is_better => 1.0 - best / there,
+            (Some(best), Some(there)) => 1.0 - there / best,
+            _ => 1.0,
+        };
+        let pairs = evaluations.chunks_exact(2).zip(self.trials.chunks_exact(2)).enumerate();
+        self.sensitivities = pairs
+            .map(|(i, (found, places))| Sensitivity {
+                neighbours: [(places[0][i], found[0]), (places[1][i], found[1])],
+                loss: loss(&found[0]).max(loss(&found[1])),
+            })
+            .collect();
+    }
+}
+
+/// The value beside `value`, or at the end of its range.
+fn neighbour(variable: &Variable, value: f64, sign: f64) -> f64 {
+    let (low, high) = variable.range;
+    let step = if value == 0.0 { NEIGHBOURS * (high - low) } else { NEIGHBOURS * value.abs() };
+    (value + sign * step).clamp(low, high)
 }
 
 /// The scenario's own device as shares of the ranges; `None` where it lies outside.
@@ -158,21 +291,25 @@ impl Study for FindStudy {
         if self.finished() {
             return None;
         }
-        let trial = self.evolution.trials().get(self.handed)?;
-        let work =
-            DesignWork::Candidate { question: Box::new(self.question.clone()), values: self.values(trial) };
+        let trial = self.trials.get(self.handed)?;
+        let values = self.values_of(trial);
+        let work = DesignWork::Candidate { question: Box::new(self.question.clone()), values };
         self.handed += 1;
-        Some((self.generation * self.evaluations.len() + self.handed - 1, Work::Design(work)))
+        Some((self.first_ticket + self.handed - 1, Work::Design(work)))
     }
 
     fn take(&mut self, ticket: usize, finding: Result<Finding, String>) {
-        let size = self.evaluations.len();
-        if self.finished() || ticket / size != self.generation {
+        // One of a set before this one comes too late.
+        let Some(index) = ticket.checked_sub(self.first_ticket).filter(|i| *i < self.evaluations.len())
+        else {
+            return;
+        };
+        if self.finished() {
             return;
         }
         match finding {
             Ok(Finding::Design(DesignFinding::Candidate(evaluation))) => {
-                self.evaluations[ticket % size] = Some(evaluation);
+                self.evaluations[index] = Some(evaluation);
                 if self.evaluations.iter().all(Option::is_some) {
                     self.advance();
                 }
@@ -185,11 +322,14 @@ impl Study for FindStudy {
     }
 
     fn progress(&self) -> f64 {
-        let part = self.evaluations.iter().flatten().count() as f64 / self.evaluations.len() as f64;
-        (self.generation as f64 + part) / self.generations as f64
+        if matches!(self.phase, Phase::Done) {
+            return 1.0;
+        }
+        let part = self.evaluations.iter().flatten().count() as f64 / self.evaluations.len().max(1) as f64;
+        (self.generation as f64 + part) / (self.generations + ROUNDS + 1) as f64
     }
 
     fn finished(&self) -> bool {
-        self.stopped || self.failure.is_some() || self.generation >= self.generations
+        self.stopped || self.failure.is_some() || matches!(self.phase, Phase::Done)
     }
 }

@@ -6,7 +6,7 @@ use super::Answer;
 use crate::jobs::RequestError;
 use crate::model::ParameterSet;
 use crate::scenario::ModelChoice;
-use crate::theory::CoupledModes;
+use crate::theory::spectrum;
 
 /// Number of Taylor coefficients in an answer.
 const COEFFICIENTS: u32 = 7;
@@ -39,6 +39,8 @@ pub struct ModesAnswer {
     pub eta2: Vec<f64>,
     /// Couplings theta_n.
     pub theta: Vec<f64>,
+    /// Capacitance of the circuit's equation: c, and that of the modes left out where the model counts them.
+    pub capacitance: f64,
     /// Eigenvalues (re, im) of the coupled linear system of beam and circuit.
     pub eigenvalues: Vec<[f64; 2]>,
 }
@@ -50,7 +52,7 @@ impl ModesRequest {
     /// [`RequestError`] when a number is out of range or describes no device.
     pub fn answer(&self) -> Result<Answer, RequestError> {
         let system = self.model.system(self.parameters)?;
-        let coupled = CoupledModes::new(&system)?;
+        let eigenvalues = spectrum::eigenvalues(&system)?;
         let modes = &system.modes;
         Ok(Answer::Modes(ModesAnswer {
             displacement: system.equilibrium.displacement,
@@ -60,7 +62,8 @@ impl ModesRequest {
             eta1: modes.iter().map(|mode| mode.eta1).collect(),
             eta2: modes.iter().map(|mode| mode.eta2).collect(),
             theta: system.theta.clone(),
-            eigenvalues: coupled.eigenvalues().iter().map(|value| [value.re, value.im]).collect(),
+            capacitance: system.capacitance,
+            eigenvalues: eigenvalues.iter().map(|value| [value.re, value.im]).collect(),
         }))
     }
 }

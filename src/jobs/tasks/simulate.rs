@@ -148,7 +148,8 @@ impl SimulateRequest {
         Ok(SimulateAnswer { t, state, outcome, t_outcome, steps: integrator.steps() })
     }
 
-    /// Samples are given at the grid point nearest to their time: the method has no dense output.
+    /// Samples are given at the grid point nearest to their time, the method having no dense output; the last step is
+    /// shortened to end at `t_end`.
     fn classical(
         &self,
         system: &ReducedSystem,
@@ -157,8 +158,11 @@ impl SimulateRequest {
     ) -> Result<SimulateAnswer, RequestError> {
         let mut run = RungeKutta4::new(system, initial, self.steps_per_period)?;
         let length = run.step_length();
-        let last = (self.t_end / length).round() as u64;
-        let mut due = self.sample_times(self.t_end).into_iter().map(|t| (t / length).round() as u64);
+        // What is left of rounding is no step.
+        let whole = (self.t_end / length * (1.0 + 1e-12)).floor() as u64;
+        let mut due = self.sample_times(self.t_end);
+        due.pop();
+        let mut due = due.into_iter().map(|t| ((t / length).round() as u64).min(whole));
         let mut next = due.next();
         let (mut t, mut state) = (Vec::new(), Vec::new());
         // Whether the run is over, and with which outcome.
@@ -169,8 +173,8 @@ impl SimulateRequest {
                     state.push(run.state().to_vec());
                     next = due.next();
                 }
-                if run.steps() >= last {
-                    return Some(Outcome::Completed);
+                if run.steps() >= whole {
+                    return Some(run.step_to(self.t_end).unwrap_or(Outcome::Completed));
                 }
                 if let Some(early) = run.step() {
                     // Beyond all bounds there is no state to show.
@@ -190,7 +194,7 @@ impl SimulateRequest {
                 Some(end) => break end,
                 None => break None,
             }
-            budget.report(done as f64 / last as f64);
+            budget.report(done as f64 / whole as f64);
         };
         if end.is_none() {
             t.push(run.time());

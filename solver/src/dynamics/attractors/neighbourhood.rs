@@ -111,7 +111,8 @@ impl Neighbourhood {
         let slow = upper.filter(|multiplier| watched(**multiplier));
         let directions =
             slow.map(|multiplier| Direction::new(&matrix, *multiplier)).collect::<Result<_, _>>()?;
-        let charge = (p.kappa == 0.0).then(|| system.theta.iter().map(|theta| theta / p.c).collect());
+        let charge =
+            (p.kappa == 0.0).then(|| system.theta.iter().map(|theta| theta / system.capacitance).collect());
         Ok(Self { orbit, states, scales, charge, directions })
     }
 

@@ -66,8 +66,11 @@ fn scenario() -> impl Strategy<Value = Scenario> {
         Just(ForceLaw::Exact),
         (2..=ForceLaw::MAX_DEGREE).prop_map(ForceLaw::Taylor),
     ];
-    let model = (1..=8_usize, law).prop_flat_map(|(modes, force)| {
-        (Just(ModelChoice { modes, force }), option::of(vec(within((-1e6, 1e6)), 2 * modes + 1)))
+    let model = (1..=8_usize, law, any::<bool>()).prop_flat_map(|(modes, force, residual_moment)| {
+        (
+            Just(ModelChoice { modes, force, residual_moment }),
+            option::of(vec(within((-1e6, 1e6)), 2 * modes + 1)),
+        )
     });
     let device = prop_oneof![Just(None), Just(Some(Device::default())), device().prop_map(Some)];
     (parameters(), model, within(END_TIME), device, select(&SCALINGS[..])).prop_map(

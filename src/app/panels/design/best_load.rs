@@ -14,7 +14,8 @@ use crate::app::theme;
 use crate::app::widgets::Card;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::jobs::design::Plant;
-use crate::jobs::design::load::{BestFrequency, LoadPoint, Peak};
+use crate::jobs::design::load::{BestFrequency, LoadPoint};
+use crate::jobs::design::peak::{Kept, Peak};
 use crate::jobs::study::Study as _;
 
 /// Draws the cards beside the curves over the load.
@@ -107,7 +108,12 @@ fn both(context: &mut Context<'_>, ui: &mut Ui) {
         let described = |(resistance, peak): (f64, Peak)| {
             let text = place(peak.frequency, resistance, peak.power);
             let text = fill("{text}, period {periods}", &[("text", &text), ("periods", &peak.periods)]);
-            (text, (resistance, peak))
+            let why = match peak.kept {
+                Kept::Limit => tr(", where a limit is just met"),
+                Kept::Stability => tr(", where the motion ends or loses its stability"),
+                Kept::Peak | Kept::End => "",
+            };
+            (text + why, (resistance, peak))
         };
         let (all, within) = (described(all), within.map(described));
         line(ui, &fill("stable motions: {what}", &[("what", &all.0)]));

@@ -34,7 +34,7 @@ pub(super) fn controls(context: &mut Context<'_>, ui: &mut Ui) {
             let millimetres = round_significant(1e3 * base.ceramic_thickness, 4);
             let text = match (published, base.ceramic) {
                 (Some((low, high)), Some(ceramic)) => fill(
-                    "{ceramic} of {millimetres} mm bears {low} to {high} (section 5.4).",
+                    "{ceramic} of {millimetres} mm bears {low} to {high} (section 5.4, read as peaks; the motion's peak is compared).",
                     &[
                         ("ceramic", &ceramic.material().name),
                         ("millimetres", &millimetres),

@@ -32,8 +32,8 @@ impl Safety {
 
     /// A number that is another one for other limits, so that a picture knows when it is old.
     pub(in crate::app) fn fingerprint(&self) -> u64 {
-        let Limits { voltage, gap, deflection, .. } = self.0.limits;
-        let bits = [voltage.map_or(0.0, |(low, _)| low), gap, deflection, self.0.gap.unwrap_or(0.0)];
+        let Limits { voltage, gap, deflection, slope } = self.0.limits;
+        let bits = [voltage.map_or(0.0, |(low, _)| low), gap, deflection, slope, self.0.gap.unwrap_or(0.0)];
         bits.iter()
             .fold(0, |mixed: u64, value| mixed.rotate_left(17) ^ value.to_bits().wrapping_mul(0x9e37_79b9))
     }

@@ -55,8 +55,8 @@ fn search(context: &mut Context<'_>, ui: &mut Ui) {
     }
     let Some(study) = found else {
         let text = tr(
-            "Varies what is chosen above by differential evolution; the device in view is among the first \
-             candidates, and the same search goes the same way again.",
+            "Varies what is chosen above by differential evolution, then by small steps from the best places; the \
+             device in view is among the first candidates, and the same search goes the same way again.",
         );
         ui.add(egui::Label::new(small(text.to_owned()).color(tokens.text_weak)).wrap());
         return;
@@ -103,6 +103,17 @@ fn result(context: &mut Context<'_>, ui: &mut Ui, study: &FindStudy, best: &Cand
             let (_, _, unit, factor, _) = device::words(dimension, study.question().scenario.scaling);
             let text = format!("{}: {} {unit}", varied::whose(dimension), significant(factor * value, 4));
             ui.label(RichText::new(text).small().color(tokens.text));
+        }
+    }
+    for (variable, found) in study.question().variables.iter().zip(study.sensitivities()) {
+        let crate::jobs::motions::Coordinate::Dimension(dimension) = variable.coordinate else { continue };
+        if found.cliff() {
+            let percent = significant(100.0 * found.loss, 2);
+            let text = fill(
+                "On a cliff: a change by 0.1 % takes {percent} % of it: {variable}",
+                &[("percent", &percent), ("variable", &varied::whose(dimension))],
+            );
+            ui.add(egui::Label::new(RichText::new(text).small().color(tokens.danger)).wrap());
         }
     }
     ui.horizontal(|ui| {

@@ -13,7 +13,7 @@ use crate::app::widgets::{Card, Tile, tiles};
 use crate::dynamics::Motion;
 use crate::jobs::design::{Harvest, Operating};
 use crate::model::ElectricalScaling;
-use crate::model::limits::{Standing, sag};
+use crate::model::limits::{Assessment, Standing, sag};
 
 /// Least width of a tile, points.
 const TILE: f32 = 140.0;
@@ -130,10 +130,18 @@ fn safe(context: &Context<'_>, ui: &Ui, harvest: &Harvest) -> (&'static str, egu
     };
     let checks = safety.checks(&harvest.demand);
     let detail = safety::worst(&checks).map(safety::in_words).unwrap_or_default();
-    match safety::standing(&checks) {
-        Standing::Within => (tr("safe"), tokens.ok, detail),
-        Standing::Marginal => (tr("marginal"), tokens.warning, detail),
-        Standing::Exceeded => (tr("unsafe"), tokens.danger, detail),
+    let Ok(device) = bench::device(&context.view.scenario) else {
+        return ("–", tokens.text_weak, String::new());
+    };
+    let sag = sag(&device);
+    match Assessment::of(&checks, &safety.0.limits, &sag) {
+        Assessment::WithinLimits => (tr("within limits"), tokens.ok, detail),
+        Assessment::Unchecked => {
+            (tr("unchecked"), tokens.text_weak, tr("no limit of the voltage is known").to_owned())
+        }
+        Assessment::ModelNotValid => (tr("model not valid"), tokens.warning, safety::in_words(&sag)),
+        Assessment::Marginal => (tr("marginal"), tokens.warning, detail),
+        Assessment::Exceeded => (tr("unsafe"), tokens.danger, detail),
     }
 }
 

@@ -12,14 +12,15 @@ use crate::app::view::Panel;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips};
 use crate::dynamics::Motion;
-use crate::jobs::design::trust::{LAWS, LawError, Quantity, TrustEntry, law_error};
+use crate::jobs::design::trust::{
+    LAWS, LawError, MomentError, Quantity, TrustEntry, law_error, moment_errors,
+};
 use crate::jobs::study::Study as _;
 use crate::model::{ForceLaw, MAX_MODES};
-use crate::scenario::ModelChoice;
 use crate::theory::Resonance;
 
 /// The model that stands for the truth.
-const BEST: ModelChoice = ModelChoice { modes: 4, force: ForceLaw::Exact };
+const BEST: (usize, ForceLaw) = (4, ForceLaw::Exact);
 pub(super) const NAMES: [&str; 4] =
     [marked("quadratic"), marked("cubic"), marked("Taylor 5"), marked("exact")];
 /// Relative difference from the exact law with most modes that counts as a good one, and as a bad one.
@@ -58,39 +59,39 @@ fn switch(context: &mut Context<'_>, ui: &mut Ui) {
         laws(context, ui);
         ui.add_space(8.0);
         let present = context.view.scenario.model;
-        if present == BEST {
+        if (present.modes, present.force) == BEST {
             let back = context.bench.before;
-            let text = fill("Back to {model}", &[("model", &in_words(back))]);
+            let text = fill("Back to {model}", &[("model", &in_words((back.modes, back.force)))]);
             if ui.button(text).clicked() {
-                adopt(context, back);
+                adopt(context, (back.modes, back.force));
             }
         } else if ui.button(tr("Switch the whole page to the exact law, 4 modes")).clicked() {
             adopt(context, BEST);
         }
         let text = fill(
             "The page computes with {model}. Click a number in the table to compute with that model.",
-            &[("model", &in_words(present))],
+            &[("model", &in_words((present.modes, present.force)))],
         );
         ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
     });
 }
 
-fn in_words(model: ModelChoice) -> String {
-    let law = match model.force {
+fn in_words((modes, force): (usize, ForceLaw)) -> String {
+    let law = match force {
         ForceLaw::Quadratic => tr("the quadratic law").to_owned(),
         ForceLaw::Taylor(degree) => fill("Taylor {degree}", &[("degree", &degree)]),
         ForceLaw::Exact => tr("the exact law").to_owned(),
     };
-    match model.modes {
+    match modes {
         1 => fill("{law}, 1 mode", &[("law", &law)]),
         modes => fill("{law}, {modes} modes", &[("law", &law), ("modes", &modes)]),
     }
 }
 
-fn adopt(context: &mut Context<'_>, model: ModelChoice) {
+fn adopt(context: &mut Context<'_>, (modes, force): (usize, ForceLaw)) {
     context.edit(|scenario| {
-        scenario.set_modes(model.modes);
-        scenario.model.force = model.force;
+        scenario.set_modes(modes);
+        scenario.model.force = force;
     });
 }
 
@@ -167,7 +168,29 @@ fn convergence(context: &mut Context<'_>, ui: &mut Ui) {
         choose(context, ui);
         ui.add_space(4.0);
         table(context, ui);
+        ui.add_space(4.0);
+        moment(context, ui);
     });
+}
+
+/// How far the modes left out are missed in the circuit, with and without what stands for them.
+fn moment(context: &Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let model = context.view.scenario.model;
+    let found = moment_errors(&context.view.scenario, model.modes);
+    let Some(MomentError { without: Some(without), with: Some(with), .. }) = found.ok() else { return };
+    let percent = |error: f64| {
+        let sign = if error > 0.0 { "+" } else { "" };
+        format!("{sign}{}", significant(100.0 * error, 2))
+    };
+    let present = if model.residual_moment { with } else { without };
+    let text = fill(
+        "Modes left out: the voltage of the linear device is off by {without} % here, by {with} % when they count in the \
+         circuit (see Model). Measured against the whole beam.",
+        &[("without", &percent(without)), ("with", &percent(with))],
+    );
+    let colour = shade(present.abs(), tokens);
+    ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
 }
 
 fn choose(context: &mut Context<'_>, ui: &mut Ui) {
@@ -215,7 +238,6 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
                 ui.label(modes.to_string());
                 for (column, law) in LAWS.into_iter().enumerate() {
                     let entry = entries.get(row * LAWS.len() + column).copied().flatten();
-                    let model = ModelChoice { modes, force: law };
                     let (text, said) = in_a_cell(entry, quantity);
                     let known = entry.and_then(Result::ok).and_then(|entry| entry.value);
                     let colour = match (known, truth) {
@@ -224,10 +246,11 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
                         }
                         _ => tokens.text_weak,
                     };
-                    let present = context.view.scenario.model == model;
+                    let chosen = context.view.scenario.model;
+                    let present = (chosen.modes, chosen.force) == (modes, law);
                     let button = egui::Button::new(RichText::new(text).color(colour)).frame(present);
                     if ui.add(button).on_hover_text(said).clicked() {
-                        adopt(context, model);
+                        adopt(context, (modes, law));
                     }
                 }
                 ui.end_row();

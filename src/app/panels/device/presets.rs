@@ -42,6 +42,7 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
             // It keeps its excitation.
             let own = context.view.scenario.parameters;
             let mut scenario = context.view.scenario.clone();
+            scenario.model.residual_moment = false;
             taken = Some(scenario.set_device(Device::default(), ElectricalScaling::AsPrinted).map(|()| {
                 for parameter in [Parameter::Omega, Parameter::Beta, Parameter::Alpha] {
                     *parameter.get_mut(&mut scenario.parameters) = parameter.get(&own);
@@ -51,6 +52,7 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
         }
         if ui.button(tr("60 mm steel beam")).clicked() {
             let mut scenario = context.view.scenario.clone();
+            scenario.model.residual_moment = true;
             taken = Some(scenario.set_device(STEEL_BEAM, ElectricalScaling::Consistent).map(|()| scenario));
         }
     });
@@ -70,6 +72,7 @@ mod tests {
     #[test]
     fn the_steel_beam_resonates_within_its_limits_and_delivers_microwatts() {
         let mut scenario = Scenario::default();
+        scenario.model.residual_moment = true;
         scenario.set_device(STEEL_BEAM, ElectricalScaling::Consistent).expect("a device");
         let (system, _) = scenario.validate().expect("a device");
         let first = system.modes.iter().next().map(|mode| scenario.units().hertz(mode.omega));

@@ -8,7 +8,7 @@ use crate::jobs::budget::Budget;
 use crate::jobs::design::find::{Evaluation, FindQuestion, Objective, Variable};
 use crate::jobs::motions::Coordinate;
 use crate::jobs::study::complete_within;
-use crate::jobs::study::find::FindStudy;
+use crate::jobs::study::find::{FindStudy, Sensitivity};
 use crate::model::{Device, Limits, ParameterSet};
 use crate::scenario::Scenario;
 
@@ -58,10 +58,27 @@ pub struct FindAnswer {
     pub parameters: ParameterSet,
     /// The same in SI units.
     pub device: Device,
-    /// Best value after each generation, null as long as there was none.
+    /// What a change of each variable by a thousandth does, in their order.
+    pub sensitivity: Vec<NamedSensitivity>,
+    /// Whether the design stands on a cliff: one of these changes takes more than a tenth of the objective.
+    pub cliff: bool,
+    /// Best value after each generation, and then after each round of the local search; null as long as there was none.
     pub history: Vec<Option<f64>>,
     /// Number of candidates evaluated.
     pub evaluations: usize,
+}
+
+/// What a small change of a variable does to the design.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NamedSensitivity {
+    /// The variable.
+    pub name: String,
+    /// Its value before and after that of the design.
+    pub at: [f64; 2],
+    /// What is known there.
+    pub evaluation: [Evaluation; 2],
+    /// The part of the objective that the worse of them loses; 1 where nothing lasts.
+    pub loss: f64,
 }
 
 impl FindTask {
@@ -95,11 +112,18 @@ impl FindTask {
         let missing = || RequestError::Study("no candidate was evaluated".to_owned());
         let best = study.best().ok_or_else(missing)?;
         let scenario = study.scenario(best)?;
+        let sensitivity = self.variables.iter().zip(study.sensitivities()).map(|(named, found)| {
+            let at = found.neighbours.map(|(value, _)| value);
+            let evaluation = found.neighbours.map(|(_, evaluation)| evaluation);
+            NamedSensitivity { name: named.name.clone(), at, evaluation, loss: found.loss }
+        });
         Ok(FindAnswer {
             values: best.values.clone(),
             evaluation: best.evaluation,
             parameters: scenario.parameters,
             device: scenario.device()?,
+            sensitivity: sensitivity.collect(),
+            cliff: study.sensitivities().iter().any(Sensitivity::cliff),
             history: study.history().iter().map(|best| best.evaluation.value).collect(),
             evaluations: study.visited().len(),
         })

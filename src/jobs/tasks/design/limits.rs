@@ -6,7 +6,7 @@ use crate::jobs::RequestError;
 use crate::jobs::design::Plant;
 use crate::jobs::design::harvest::lasting;
 use crate::model::Limits;
-use crate::model::limits::{Check, Demand, Standing, sag};
+use crate::model::limits::{Assessment, Check, Demand, sag};
 use crate::scenario::Scenario;
 
 /// The limits checked.
@@ -18,8 +18,12 @@ pub struct LimitsAnswer {
     pub demand: Option<Demand>,
     /// Every limit that applies.
     pub checks: Vec<Check>,
-    /// Whether the motion lasts and keeps all of them.
+    /// What can be said of all together.
+    pub assessment: Assessment,
+    /// Whether that is `within_limits`: every limit is known and kept, and the model is valid.
     pub safe: bool,
+    /// What of the voltage is held against its limit: always its largest value.
+    pub voltage_compared: &'static str,
     /// The sag under gravity, which the model counts as small.
     pub sag: Check,
 }
@@ -34,9 +38,10 @@ impl LimitsAnswer {
         let reached = lasting(&plant, &system, &initial)?;
         let demand = reached.harvest.map(|harvest| harvest.demand);
         let checks = demand.map_or_else(Vec::new, |demand| limits.checks(&demand, Plant::gap(&system)));
-        let kept = checks.iter().all(|check| check.standing == Standing::Within);
         let motion = super::super::class(reached.motion);
         let sag = sag(&scenario.device()?);
-        Ok(Self { motion, safe: demand.is_some() && kept, demand, checks, sag })
+        let assessment = Assessment::of(&checks, &limits, &sag);
+        let safe = assessment == Assessment::WithinLimits;
+        Ok(Self { motion, demand, checks, assessment, safe, voltage_compared: "v_peak", sag })
     }
 }

@@ -6,10 +6,12 @@ use crate::jobs::RequestError;
 use crate::jobs::budget::Budget;
 use crate::jobs::design::Plant;
 use crate::jobs::design::harvest::lasting;
-use crate::jobs::design::trust::{LAWS, LawError, Quantity, TrustEntry, law_error};
+use crate::jobs::design::trust::{
+    LAWS, LawError, MomentError, Quantity, TrustEntry, law_error, moment_errors, places,
+};
 use crate::jobs::study::complete_within;
 use crate::jobs::study::table::Table;
-use crate::model::ForceLaw;
+use crate::model::{ForceLaw, MAX_MODES};
 use crate::scenario::Scenario;
 
 /// How far the model is to be trusted.
@@ -29,11 +31,46 @@ impl Default for TrustTask {
 /// How far the model is to be trusted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TrustAnswer {
-    /// One a number of modes and law; null where it cannot be computed.
-    pub entries: Vec<Option<TrustEntry>>,
+    /// One a number of modes and law.
+    pub entries: Vec<TrustRow>,
+    /// How far the modes left out are missed in the circuit, one a number of modes; empty where the linear device has no
+    /// steady state.
+    pub moment_errors: Vec<MomentError>,
     /// The laws' errors where the motion reached comes closest to the magnet and where it is farthest; empty when it
     /// ended.
     pub law_errors: Vec<LawErrors>,
+}
+
+/// An entry, or why there is none.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TrustRow {
+    /// Number of modes, law, value and motion.
+    #[serde(flatten)]
+    pub entry: TrustEntry,
+    /// Why the value is null; absent where it is not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+impl TrustRow {
+    fn new((modes, law): (usize, ForceLaw), found: Option<Result<&TrustEntry, &str>>) -> Self {
+        let nothing = TrustEntry { modes, law, value: None, motion: None };
+        let (entry, reason) = match found {
+            Some(Ok(entry)) => (entry.clone(), reason(entry)),
+            Some(Err(message)) => (nothing, Some(message.to_owned())),
+            None => (nothing, Some("it was not computed".to_owned())),
+        };
+        Self { entry, reason }
+    }
+}
+
+/// Why an entry has no value.
+fn reason(entry: &TrustEntry) -> Option<String> {
+    match (entry.value, entry.motion) {
+        (Some(_), _) => None,
+        (None, Some(motion)) => Some(motion.to_string()),
+        (None, None) => Some("the resonance has no tongue within the window".to_owned()),
+    }
 }
 
 /// How far a law is off.
@@ -65,8 +102,11 @@ impl TrustTask {
         };
         let mut table = Table::trust(scenario, self.quantity);
         complete_within(&mut table, budget);
-        let entries = table.trust_entries().map(|entry| entry?.ok().cloned()).collect();
+        let entries =
+            places().zip(table.trust_entries()).map(|(place, found)| TrustRow::new(place, found)).collect();
+        let moment = (1..=MAX_MODES).map(|modes| moment_errors(scenario, modes));
+        let moment_errors = moment.collect::<Result<_, _>>().unwrap_or_default();
         let law_errors = reached.harvest.map_or_else(Vec::new, |found| errors(found.demand.tip).to_vec());
-        Ok(TrustAnswer { entries, law_errors })
+        Ok(TrustAnswer { entries, moment_errors, law_errors })
     }
 }
