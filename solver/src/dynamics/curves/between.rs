@@ -5,7 +5,8 @@ use super::station::Station;
 
 /// Places at which a course is looked at.
 const SAMPLES: usize = 16;
-/// Part of what the ends of a step contradict each other by that a cubic may be wrong by in its middle.
+/// Part of what the ends of a step contradict each other by, or a straight line, that a course may be wrong by in its
+/// middle.
 const DISTRUST: f64 = 0.5;
 
 /// A function between two stations, from 0 to 1: a cubic by its values and slopes, and how wrong that may be.
@@ -55,12 +56,11 @@ impl Course {
         Self { start: (a, rise - bend), end: (b, rise + bend), error: 0.0 }
     }
 
-    /// The parabola through the values at both ends and an earlier `value` at `distance` before the first. It may be
-    /// wrong by as much as it departs from the straight line through the earlier two.
+    /// The parabola through the values at both ends and an earlier `value` at `distance` before the first.
     fn after(a: f64, b: f64, value: f64, distance: f64) -> Self {
         let (rise, earlier) = (b - a, (a - value) / distance);
         let bend = (rise - earlier) / (1.0 + distance);
-        Self { start: (a, rise - bend), end: (b, rise + bend), error: (rise - earlier).abs() }
+        Self { start: (a, rise - bend), end: (b, rise + bend), error: DISTRUST * (rise - earlier).abs() }
     }
 
     /// Whether the ends have opposite signs.

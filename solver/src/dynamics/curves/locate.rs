@@ -89,12 +89,15 @@ impl Tracer<'_> {
         next: &Station,
         depth: usize,
     ) -> Vec<(SpecialKind, Station)> {
-        let courses: Vec<(SpecialKind, Course)> = SpecialKind::ALL
-            .into_iter()
-            // A curve that leaves the point in which it ends does not come to it.
-            .filter(|kind| !(ends(here, *kind) && here.condition.cosine.abs() >= REAL))
-            .filter_map(|kind| Some((kind, Course::of(kind, before, here, next)?)))
-            .collect();
+        // A curve that leaves the point in which it ends does not come to it, and one that ends on an orbit of half the
+        // period stands still there.
+        let leaves = here.condition.cosine.abs() >= REAL;
+        let halved = here.halving.as_ref().is_some_and(|halving| halving.norm() < HALF_APART);
+        let looked_for =
+            |kind: &SpecialKind| !(leaves && ends(here, *kind)) && !(halved && *kind == SpecialKind::Cusp);
+        let kinds = SpecialKind::ALL.into_iter().filter(looked_for);
+        let courses: Vec<(SpecialKind, Course)> =
+            kinds.filter_map(|kind| Some((kind, Course::of(kind, before, here, next)?))).collect();
         let doubt = courses.iter().find_map(|(_, course)| course.doubt());
         if let Some(fraction) = doubt
             && let Some(found) = self.divided(before, here, next, &[fraction], depth)
@@ -146,8 +149,20 @@ impl Tracer<'_> {
 
     /// The station at a `fraction` of the way between two others.
     fn at_fraction(&mut self, here: &Station, next: &Station, fraction: f64) -> Result<Station, OrbitError> {
-        let chord: DVector<f64> = &next.place - &here.place;
-        self.land(here, &cubic(here, next, fraction), &(&chord / chord.norm()))
+        let place = self.place_between(here, next, fraction)?;
+        Station::read(&mut self.surface, place, here.condition, Some(here))
+    }
+
+    /// The place on the curve at a `fraction` of the way between two stations.
+    fn place_between(
+        &mut self,
+        here: &Station,
+        next: &Station,
+        fraction: f64,
+    ) -> Result<DVector<f64>, OrbitError> {
+        let normal = (&next.place - &here.place).normalize();
+        let gradient = here.direction.gradient.lerp(&next.direction.gradient, fraction);
+        self.surface.correct(&cubic(here, next, fraction), &normal, here.condition, &gradient)
     }
 
     /// The station between two others where the test for `kind`, which they have with opposite signs, vanishes: near
@@ -159,17 +174,18 @@ impl Tracer<'_> {
         kind: SpecialKind,
         guess: f64,
     ) -> Result<Station, OrbitError> {
-        let value = |station: &Station| station.test(kind).ok_or(OrbitError::Singular);
-        let (first, last) = (value(here)?, value(next)?);
+        let ends = here.test(kind).zip(next.test(kind));
+        let (first, last) = ends.ok_or(OrbitError::Singular)?;
         let tolerance = LOCATED / (&next.place - &here.place).norm();
-        let mut found = self.at_fraction(here, next, guess)?;
-        let middle = value(&found)?;
+        let mut found = here.place.clone();
+        let mut value = |fraction: f64| {
+            found = self.place_between(here, next, fraction)?;
+            here.test_beside(&mut self.surface, &found, kind)
+        };
+        let middle = value(guess)?;
         let opposite = if (middle < 0.0) == (first < 0.0) { (1.0, last) } else { (0.0, first) };
-        root(opposite, (guess, middle), tolerance, |fraction| {
-            found = self.at_fraction(here, next, fraction)?;
-            value(&found)
-        })?;
-        Ok(found)
+        root(opposite, (guess, middle), tolerance, value)?;
+        Station::read(&mut self.surface, found, here.condition, Some(here))
     }
 }
 

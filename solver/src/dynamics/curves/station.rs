@@ -87,6 +87,29 @@ impl Station {
         Ok(Self { place, direction, condition, multipliers, tests, halving, form, at, v_rms })
     }
 
+    /// The value of the test for `kind` at a `place` beside this station, without what else [`Self::read`] reads.
+    pub(super) fn test_beside(
+        &self,
+        surface: &mut Surface,
+        place: &DVector<f64>,
+        kind: SpecialKind,
+    ) -> Result<f64, OrbitError> {
+        if kind == SpecialKind::Cusp {
+            let there = Self::read(surface, place.clone(), self.condition, Some(self))?;
+            return there.test(kind).ok_or(OrbitError::Singular);
+        }
+        let family = &mut surface.family;
+        family.defect(place)?;
+        let multipliers = family.solver.multipliers()?;
+        let condition = self.condition.renewed(&multipliers).ok_or(OrbitError::Multipliers)?;
+        let known = condition.tests(&multipliers).into_iter().find(|(other, _)| *other == kind);
+        let value = match known {
+            Some((_, value)) => Some(value),
+            None => NormalForm::new(family, condition, self.form.as_ref())?.map(|form| form.test),
+        };
+        value.ok_or(OrbitError::Singular)
+    }
+
     /// Turns the station round, to leave it the other way.
     pub(super) fn reversed(mut self) -> Self {
         let Direction { tangent, slopes, fold, .. } = &mut self.direction;
@@ -168,13 +191,25 @@ impl Station {
     /// The place expected a `step` on: on the cubic through this station and the one `before`, or on the tangent
     /// where there is none near.
     pub(super) fn predict(&self, before: Option<&Self>, step: f64) -> DVector<f64> {
-        if let Some(before) = before {
-            let width = (&self.place - &before.place).norm();
-            if step <= CUBIC_REACH * width {
-                return cubic(before, self, 1.0 + step / width);
-            }
+        match self.reach(before, step) {
+            Some((before, fraction)) => cubic(before, self, fraction),
+            None => &self.place + &self.direction.tangent * step,
         }
-        &self.place + &self.direction.tangent * step
+    }
+
+    /// The condition's gradient expected there, on the straight line through those at both.
+    pub(super) fn gradient(&self, before: Option<&Self>, step: f64) -> DVector<f64> {
+        match self.reach(before, step) {
+            Some((before, fraction)) => before.direction.gradient.lerp(&self.direction.gradient, fraction),
+            None => self.direction.gradient.clone(),
+        }
+    }
+
+    /// The station `before`, and the place a `step` on as a fraction of the way from there to here, if it is near.
+    fn reach<'a>(&self, before: Option<&'a Self>, step: f64) -> Option<(&'a Self, f64)> {
+        let before = before?;
+        let width = (&self.place - &before.place).norm();
+        (step <= CUBIC_REACH * width).then(|| (before, 1.0 + step / width))
     }
 }
 

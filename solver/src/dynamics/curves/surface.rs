@@ -16,7 +16,7 @@ use crate::model::{Parameter, ReducedSystem};
 /// Iterations of a correction, and the one that takes nothing from where it started.
 const MAX_ITERATIONS: usize = 10;
 const RENEWAL: usize = 5;
-/// A correction below this is the last one.
+/// A correction is the last one when the next, by how much smaller it is than the one before, will be below this.
 const SETTLED: f64 = 1e-9;
 /// Smallest sine of the angle in the tangent plane between the curve and the line on which the held parameter is
 /// constant for points to be corrected along that line.
@@ -42,7 +42,7 @@ pub(super) struct Direction {
     /// On a curve of folds.
     pub(super) fold: Option<Fold>,
     /// Gradient of the condition within the surface.
-    gradient: DVector<f64>,
+    pub(super) gradient: DVector<f64>,
     /// Normal of the hyperplane in which the next point is corrected.
     pub(super) normal: DVector<f64>,
 }
@@ -143,18 +143,18 @@ impl Surface {
         Fold { still, heading: (ahead, part * length), coefficient }
     }
 
-    /// The point of the curve near `guess` in the hyperplane through it with the `normal`, corrected from what is
-    /// known at `from`: Newton's iteration, with Broyden's update of the gradient.
+    /// The point of the curve near `guess` in the hyperplane through it with the `normal`: Newton's iteration, with
+    /// Broyden's update of the condition's `gradient` there.
     pub(super) fn correct(
         &mut self,
         guess: &DVector<f64>,
         normal: &DVector<f64>,
         condition: Condition,
-        from: &Direction,
+        gradient: &DVector<f64>,
     ) -> Result<DVector<f64>, OrbitError> {
         let n = self.family.dimension();
-        let unit = from.gradient.norm();
-        let mut gradient = &from.gradient / unit;
+        let unit = gradient.norm();
+        let mut gradient = gradient / unit;
         let mut place = guess.clone();
         let mut before: Option<(DVector<f64>, f64)> = None;
         let mut residual = f64::INFINITY;
@@ -169,9 +169,9 @@ impl Surface {
                 let slopes = basis.each_ref().map(|vector| self.slopes(&place, vector, condition, &values));
                 let [level, across] = slopes;
                 gradient = (&basis[0] * level?[0] + &basis[1] * across?[0]) / unit;
-            } else if let Some((step, old)) = before {
-                let missed = value - old - gradient.dot(&step);
-                gradient += &step * (missed / step.norm_squared());
+            } else if let Some((step, old)) = &before {
+                let missed = value - old - gradient.dot(step);
+                gradient += step * (missed / step.norm_squared());
             }
             let off = normal.dot(&(&place - guess));
             let mut matrix = DMatrix::zeros(n + 2, n + 2);
@@ -184,7 +184,9 @@ impl Surface {
                 return Err(OrbitError::Singular);
             }
             place += &step;
-            if step.amax() <= SETTLED {
+            let size = step.amax();
+            let falls = before.as_ref().map_or(1.0, |(before, _)| size / before.amax());
+            if size * falls.min(1.0) <= SETTLED {
                 return Ok(place);
             }
             before = Some((step, value));

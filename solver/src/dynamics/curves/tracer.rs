@@ -60,7 +60,7 @@ pub fn trace_curve(system: &ReducedSystem, start: &Start, plane: &Plane) -> Resu
     let multipliers = surface.family.solver.multipliers()?;
     let condition = Condition::at(start.kind, &multipliers).ok_or(OrbitError::Multipliers)?;
     let near = surface.direction(&place, condition, &derivative, None)?;
-    let place = surface.correct(&place, &near.tangent, condition, &near)?;
+    let place = surface.correct(&place, &near.tangent, condition, &near.gradient)?;
     let origin = Station::read(&mut surface, place, condition, None)?;
     let mut tracer = Tracer { surface, plane };
     let back = tracer.side(origin.clone().reversed());
@@ -188,10 +188,11 @@ impl Tracer<'_> {
         // Short enough for the bend of the curve; no shorter than that needs, for the errors of the map.
         self.surface.family.difference = (DIFFERENCE * step / STEPS.0).clamp(0.1 * DIFFERENCE, DIFFERENCE);
         let mut guess = here.predict(before, step);
+        let gradient = here.gradient(before, step);
         let mut border = self.first_border(here.at(), self.surface.family.values(&guess));
         let mut next = None;
         if border.is_none() {
-            let station = self.land(here, &guess, &here.direction.normal)?;
+            let station = self.land(here, &guess, &here.direction.normal, &gradient)?;
             border = self.first_border(here.at(), station.at());
             next = border.is_none().then_some(station);
         }
@@ -203,7 +204,7 @@ impl Tracer<'_> {
                 guess = self.surface.family.with_value(place, k, value);
                 let mut normal = DVector::zeros(guess.len());
                 normal[guess.len() - 2 + k] = 1.0;
-                let next = self.land(here, &guess, &normal)?;
+                let next = self.land(here, &guess, &normal, &gradient)?;
                 if self.first_border(here.at(), next.at()).is_some() {
                     return Err(OrbitError::Singular);
                 }
@@ -242,14 +243,16 @@ impl Tracer<'_> {
         found
     }
 
-    /// The station at the curve's point in the hyperplane through `guess` with the `normal`.
+    /// The station at the curve's point in the hyperplane through `guess`, where the condition may have this `gradient`,
+    /// with the `normal`.
     pub(super) fn land(
         &mut self,
         from: &Station,
         guess: &DVector<f64>,
         normal: &DVector<f64>,
+        gradient: &DVector<f64>,
     ) -> Result<Station, OrbitError> {
-        let place = self.surface.correct(guess, normal, from.condition, &from.direction)?;
+        let place = self.surface.correct(guess, normal, from.condition, gradient)?;
         Station::read(&mut self.surface, place, from.condition, Some(from))
     }
 
@@ -276,7 +279,8 @@ impl Tracer<'_> {
         }
         let fraction = ahead(here) / (ahead(here) - ahead(next));
         let guess = super::station::cubic(here, next, fraction);
-        let found = self.surface.correct(&guess, &origin.direction.tangent, here.condition, &here.direction);
+        let found =
+            self.surface.correct(&guess, &origin.direction.tangent, here.condition, &here.direction.gradient);
         found.is_ok_and(|place| (place - &origin.place).amax() < 1e2 * SAME)
     }
 }
