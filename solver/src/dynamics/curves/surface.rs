@@ -16,8 +16,9 @@ use crate::model::{Parameter, ReducedSystem};
 /// Iterations of a correction, and the one that takes nothing from where it started.
 const MAX_ITERATIONS: usize = 10;
 const RENEWAL: usize = 5;
-/// A correction is the last one when the next, by how much smaller it is than the one before, will be below this.
+/// A correction below this is the last one, and one after which the next, if it shrinks as this one did, is below that.
 const SETTLED: f64 = 1e-9;
+const FORESEEN: f64 = 1e-11;
 /// Smallest sine of the angle in the tangent plane between the curve and the line on which the held parameter is
 /// constant for points to be corrected along that line.
 const TRANSVERSAL: f64 = 0.1;
@@ -186,7 +187,7 @@ impl Surface {
             place += &step;
             let size = step.amax();
             let falls = before.as_ref().map_or(1.0, |(before, _)| size / before.amax());
-            if size * falls.min(1.0) <= SETTLED {
+            if size <= SETTLED || size * falls <= FORESEEN {
                 return Ok(place);
             }
             before = Some((step, value));
