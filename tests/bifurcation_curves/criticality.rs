@@ -113,22 +113,25 @@ fn the_multiplier_beside_a_fold_changes_as_its_coefficient_says() -> TestResult 
         let matrix = map_at(&here, &fold.point.state)?.scaled_derivative();
         let [_, left] = eigenvectors(&matrix, Complex::from(1.0))?;
         // On either side of the fold the orbit much nearer to it, at a distance that falls as the square root.
-        let ratio = |i: usize| -> Fallible<(f64, f64)> {
+        let beside = |i: usize, below: f64| -> Fallible<(Vec<f64>, f64)> {
             let point = branch.points.get(i).ok_or("points")?;
-            let share = 1e-6 * fold.point.value / (fold.point.value - point.value);
-            let near = there.with_excitation(fold.point.value * (1.0 - 1e-6), omega)?;
+            let share = below * fold.point.value / (fold.point.value - point.value);
+            let near = there.with_excitation(fold.point.value * (1.0 - below), omega)?;
             let ends = fold.point.state.iter().zip(&point.state);
             let guess: Vec<f64> = ends.map(|(fold, end)| fold + (end - fold) * share.sqrt()).collect();
             let orbit = Orbit::find(&near, Some(&guess), 1)?;
-            let x = left.dotc(&scaled(&here, &orbit.state, &fold.point.state).map(Complex::from)).norm();
             let distance = |mu: &&Complex<f64>| (*mu - 1.0).norm();
             let nearest = orbit.multipliers.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            Ok((x, (nearest.ok_or("a multiplier")?.re - 1.0) / (2.0 * x)))
+            let multiplier = nearest.ok_or("a multiplier")?.re;
+            Ok((orbit.state, multiplier))
         };
-        // x has opposite signs before and after.
-        let (before, after) = (ratio(fold.after - 1)?, ratio(fold.after)?);
-        let found = at_zero([before, (-after.0, -after.1)]);
-        assert!((found.abs() / coefficient.abs() - 1.0).abs() < 1e-3, "{omega}: {found} {coefficient}");
+        let slope = |below: f64| -> Fallible<(f64, f64)> {
+            let (before, after) = (beside(fold.after - 1, below)?, beside(fold.after, below)?);
+            let apart = left.dotc(&scaled(&here, &before.0, &after.0).map(Complex::from)).norm();
+            Ok((below, (before.1 - after.1) / (2.0 * apart)))
+        };
+        let found = at_zero([slope(1e-9)?, slope(1e-10)?]);
+        assert!((found.abs() / coefficient.abs() - 1.0).abs() < 1e-4, "{omega}: {found} {coefficient}");
     }
     Ok(())
 }
