@@ -74,6 +74,7 @@ const SENTENCES: [&str; 109] = [
     marked("flip-Neimark-Sacker"),
     marked("double Neimark-Sacker"),
     marked("generalized period doubling"),
+    marked("Chenciner"),
     // What is wrong with a device.
     marked(
         "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {c0} and h = {h} the gap d = {d} must be larger than {smallest}",

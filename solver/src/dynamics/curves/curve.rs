@@ -194,9 +194,76 @@ pub struct Curve {
     pub ends: [CurveEnd; 2],
 }
 
+/// A stretch of a curve of the same criticality.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stretch {
+    /// To which side motions branch off on it; not known where no coefficient is finite, none at folds.
+    pub criticality: Option<Criticality>,
+    /// Its places, the points of codimension two at its ends among them.
+    pub places: Vec<[f64; 2]>,
+}
+
+impl Curve {
+    /// The curve in stretches of the same criticality, each from where the one before ends. A point without a coefficient
+    /// belongs to the stretch on the way to it.
+    pub fn stretches(&self) -> Vec<Stretch> {
+        let criticality =
+            |point: &CurvePoint| point.coefficient.and_then(|value| Criticality::of(self.kind, value));
+        let first = self.points.iter().find_map(criticality);
+        let mut stretches = vec![Stretch { criticality: first, places: Vec::new() }];
+        for (i, point) in self.points.iter().enumerate() {
+            let between = self.special.iter().filter(|special| special.after == i).map(|special| special.at);
+            let Some(stretch) = stretches.last_mut() else { break };
+            let known = criticality(point).or(stretch.criticality);
+            let before = stretch.places.last().copied();
+            if known == stretch.criticality {
+                stretch.places.extend(between.chain([point.at]));
+            } else {
+                stretch.places.extend(between);
+                let begin = stretch.places.last().copied().or(before).unwrap_or(point.at);
+                stretches.push(Stretch { criticality: known, places: vec![begin, point.at] });
+            }
+        }
+        stretches
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn stretches_meet_in_special_points() {
+        let point = |x: f64, coefficient| CurvePoint { at: [x, 0.0], state: vec![], v_rms: 0.0, coefficient };
+        let turn = SpecialPoint {
+            kind: SpecialKind::GeneralizedPeriodDoubling,
+            at: [1.5, 0.0],
+            state: vec![],
+            multipliers: vec![],
+            coefficient: Some(0.0),
+            after: 2,
+        };
+        let curve = Curve {
+            kind: Instability::PeriodDoubling,
+            periods: 1,
+            points: vec![point(0.0, None), point(1.0, Some(-1.0)), point(2.0, Some(1.0)), point(3.0, None)],
+            origin: 0,
+            special: vec![turn],
+            ends: [CurveEnd::Window, CurveEnd::Window],
+        };
+        let stretch = |criticality, places: &[f64]| Stretch {
+            criticality: Some(criticality),
+            places: places.iter().map(|x| [*x, 0.0]).collect(),
+        };
+        let expected = [
+            stretch(Criticality::Subcritical, &[0.0, 1.0, 1.5]),
+            stretch(Criticality::Supercritical, &[1.5, 2.0, 3.0]),
+        ];
+        assert_eq!(curve.stretches(), expected);
+        let folds = Curve { kind: Instability::Fold, ..curve };
+        assert_eq!(folds.stretches().len(), 1);
+        assert_eq!(Criticality::of(Instability::NeimarkSacker, -1.0), Some(Criticality::Supercritical));
+    }
 
     #[test]
     fn a_curve_round_trips_through_json() -> Result<(), serde_json::Error> {

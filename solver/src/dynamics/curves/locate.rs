@@ -93,9 +93,9 @@ impl Tracer<'_> {
         // period stands still there.
         let leaves = here.condition.cosine.abs() >= REAL;
         let halved = here.halving.as_ref().is_some_and(|halving| halving.norm() < HALF_APART);
-        let looked_for =
-            |kind: &SpecialKind| !(leaves && ends(here, *kind)) && !(halved && *kind == SpecialKind::Cusp);
-        let kinds = SpecialKind::ALL.into_iter().filter(looked_for);
+        let passed_over =
+            |kind: SpecialKind| leaves && ends(here, kind) || halved && kind == SpecialKind::Cusp;
+        let kinds = SpecialKind::ALL.into_iter().filter(|kind| !passed_over(*kind));
         let courses: Vec<(SpecialKind, Course)> =
             kinds.filter_map(|kind| Some((kind, Course::of(kind, before, here, next)?))).collect();
         let doubt = courses.iter().find_map(|(_, course)| course.doubt());

@@ -18,7 +18,7 @@ mod station;
 mod surface;
 mod tracer;
 
-pub use curve::{Criticality, Curve, CurveEnd, CurvePoint, SpecialKind, SpecialPoint, Start};
+pub use curve::{Criticality, Curve, CurveEnd, CurvePoint, SpecialKind, SpecialPoint, Start, Stretch};
 pub use known::KnownCurves;
 pub use search::{Line, Search, Survey, bifurcations_along_line, find_curves, search_lines};
 pub use tracer::trace_curve;

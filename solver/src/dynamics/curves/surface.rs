@@ -195,11 +195,6 @@ impl Surface {
         Err(OrbitError::NoConvergence { iterations: MAX_ITERATIONS, residual })
     }
 
-    /// The condition at the orbit evaluated last.
-    fn value(&self, condition: Condition) -> Result<f64, OrbitError> {
-        condition.value(&self.family.solver.multipliers()?).ok_or(OrbitError::Multipliers)
-    }
-
     /// The condition at the orbit evaluated last, and then the tests for points of codimension two.
     fn values(&self, condition: Condition) -> Result<Vec<f64>, OrbitError> {
         let multipliers = self.family.solver.multipliers()?;
