@@ -7,7 +7,7 @@ use super::{fill_with, is_english, marked, tr};
 use crate::dynamics::motion::Motion;
 
 /// The sentences, the more special before the more general. A value may be another sentence.
-const SENTENCES: [&str; 109] = [
+const SENTENCES: [&str; 110] = [
     // Motions.
     marked("a start on the stable forced motion leads to another motion: {motion}, {volts} V rms"),
     marked("a start at rest leads to another motion: {motion}, {volts} V rms"),

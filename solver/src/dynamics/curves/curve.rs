@@ -149,7 +149,7 @@ pub struct SpecialPoint {
     /// Real and imaginary part of the orbit's multipliers over the curve's period, by descending modulus.
     pub multipliers: Vec<[f64; 2]>,
     /// Coefficient of the curve's normal form, as that of a [`CurvePoint`]: zero at a cusp, a generalized period doubling
-    /// and a Chenciner point; `None` where it grows beyond all bounds.
+    /// and a Chenciner point; `None` where it grows beyond all bounds and where the orbit has half the curve's period.
     pub coefficient: Option<f64>,
     /// How many points of the curve lie before it.
     pub after: usize,

@@ -122,10 +122,11 @@ impl Station {
         self
     }
 
-    /// The same at another `place`.
+    /// The same at another `place` near it, without what must be computed there.
     pub(super) fn moved(mut self, surface: &Surface, place: DVector<f64>) -> Self {
         self.at = surface.family.values(&place);
         self.place = place;
+        (self.form, self.direction.fold) = (None, None);
         self
     }
 
