@@ -25,6 +25,7 @@ impl Source {
         }
         source.read_folder(&root.join("src/jobs"), "jobs")?;
         source.read_folder(&root.join("tests/design"), "design")?;
+        source.read_folder(&root.join("tests/bifurcation_curves"), "bifurcation_curves")?;
         for entry in std::fs::read_dir(root.join("tests"))? {
             let path = entry?.path();
             if path.extension().is_some_and(|extension| extension == "rs") {

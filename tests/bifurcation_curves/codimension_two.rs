@@ -1,7 +1,8 @@
 //! Points of codimension two: their multipliers, the curves that meet in them, the branches on either side.
 
 use harvester_lab::dynamics::curves::{
-    Curve, CurveEnd, CurvePoint, Line, SpecialKind, SpecialPoint, Start, bifurcations_along_line, trace_curve,
+    Criticality, Curve, CurveEnd, CurvePoint, Line, SpecialKind, SpecialPoint, Start,
+    bifurcations_along_line, trace_curve,
 };
 use harvester_lab::dynamics::floquet::multipliers;
 use harvester_lab::dynamics::{
@@ -197,6 +198,59 @@ fn the_doubled_motions_fold_ends_where_the_doubling_turns_supercritical() -> Tes
         let (_, doubled) = births(point.at[0])?;
         let fold = doubled.bifurcations.first().ok_or("a fold")?;
         assert!((fold.point.value - point.at[1]).abs() < 1e-9, "{:?}: {}", point.at, fold.point.value);
+    }
+    Ok(())
+}
+
+/// AUTO-07p's values. In some of these windows both resonances lie within one step.
+#[test]
+fn two_resonances_within_a_step_are_named() -> TestResult {
+    let system = system(mild(1e-4), ForceLaw::Quadratic)?;
+    for (omega, limit) in [((6.0, 10.0), 0.1), ((7.0, 10.0), 0.1), ((6.0, 12.0), 0.1), ((8.0, 9.0), 0.1)] {
+        let window = chart(omega, limit)?;
+        let found = curves(&system, &window)?;
+        for reference in [[8.461662, 0.078580], [8.503841, 0.077610]] {
+            for kind in [Instability::PeriodDoubling, Instability::NeimarkSacker] {
+                let points = found.iter().filter(|curve| curve.kind == kind).flat_map(|curve| &curve.special);
+                let near = points.filter(|point| point.kind == SpecialKind::OneToTwo).filter(|point| {
+                    (point.at[0] - reference[0]).abs() < 1e-6 && (point.at[1] - reference[1]).abs() < 1e-6
+                });
+                assert_eq!(near.count(), 1, "{omega:?} {kind:?} {reference:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// AUTO-07p's values.
+#[test]
+fn cusps_are_found_in_narrow_and_wide_windows() -> TestResult {
+    let system = system(mild(1e-4), ForceLaw::Quadratic)?;
+    for (omega, limit) in [((20.5, 22.5), 0.04), ((18.0, 24.0), 0.04), ((18.0, 24.0), 0.1)] {
+        let found = curves(&system, &chart(omega, limit)?)?;
+        let cusps = found.iter().flat_map(|curve| &curve.special).filter(|s| s.kind == SpecialKind::Cusp);
+        let mut omegas: Vec<f64> = cusps.map(|cusp| cusp.at[0]).collect();
+        omegas.sort_by(f64::total_cmp);
+        assert_eq!(omegas.len(), 2, "{omega:?}");
+        for (found, reference) in omegas.iter().zip([20.838_120_174, 21.392_103_698]) {
+            assert!((found - reference).abs() < 2e-9, "{omega:?}: {found}");
+        }
+    }
+    Ok(())
+}
+
+/// AUTO-07p's value, and on its two sides what the branches of the test above do.
+#[test]
+fn a_doubling_changes_its_criticality_in_the_generalized_one_only() -> TestResult {
+    let system = system(mild(1e-4), ForceLaw::Quadratic)?;
+    let curve = only(curves(&system, &chart((7.6, 8.8), 0.04)?)?)?;
+    let turn = special(&curve, SpecialKind::GeneralizedPeriodDoubling)?;
+    assert!((turn.at[0] - 8.156_414_9).abs() < 6e-8 && (turn.at[1] - 4.212_066_6e-4).abs() < 6e-11);
+    assert!(turn.coefficient.ok_or("a value")?.abs() < 1e-6);
+    for (i, point) in curve.points.iter().enumerate() {
+        let criticality = Criticality::of(curve.kind, point.coefficient.ok_or("a value")?);
+        let expected = if i < turn.after { Criticality::Subcritical } else { Criticality::Supercritical };
+        assert_eq!(criticality, Some(expected), "{:?}", point.at);
     }
     Ok(())
 }

@@ -4,5 +4,6 @@
 mod boundaries;
 mod charts;
 mod codimension_two;
+mod criticality;
 mod search;
 mod support;

@@ -94,6 +94,14 @@ impl<const K: usize> Family<K> {
         std::array::from_fn(|k| place[n + k] * self.units[n + k])
     }
 
+    /// Length of a difference of places without its parameters, in the components that the present map's scales make
+    /// comparable, over the gap.
+    pub(super) fn length(&mut self, difference: &DVector<f64>) -> f64 {
+        let map = self.solver.map();
+        let parts = difference.iter().zip(&self.units).zip(map.scales());
+        parts.map(|((part, unit), scale)| (part * unit / scale).powi(2)).sum::<f64>().sqrt() / map.gap()
+    }
+
     /// `place` with its parameter `k` replaced by `value`.
     pub(super) fn with_value(&self, mut place: DVector<f64>, k: usize, value: f64) -> DVector<f64> {
         let n = self.dimension();
@@ -143,8 +151,13 @@ impl<const K: usize> Family<K> {
         self.set(self.values(place))?;
         let beta = self.beta();
         self.solver.evaluate_at(&state, beta, self.periods)?;
+        Ok(self.defect_there())
+    }
+
+    /// The same at the state that the solver evaluated last.
+    pub(super) fn defect_there(&mut self) -> DVector<f64> {
         let gap = self.solver.map().gap();
-        Ok(self.solver.defect() / gap)
+        self.solver.defect() / gap
     }
 
     /// Whether the model accepts the parameters at `place`.
@@ -218,10 +231,21 @@ impl<const K: usize> Family<K> {
         place: &DVector<f64>,
         renewed: bool,
     ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
-        let n = self.dimension();
         let defect = self.defect(place)?;
+        let derivative = self.derivative(place, &defect, renewed)?;
+        Ok((defect, derivative))
+    }
+
+    /// The derivative alone, where the solver is at `place` already and has this `defect`.
+    pub(super) fn derivative(
+        &mut self,
+        place: &DVector<f64>,
+        defect: &DVector<f64>,
+        renewed: bool,
+    ) -> Result<DMatrix<f64>, OrbitError> {
+        let n = self.dimension();
         if renewed || self.columns.is_none() {
-            self.renew(place, &defect)?;
+            self.renew(place, defect)?;
         }
         let gap = self.solver.map().gap();
         let mut derivative = DMatrix::zeros(n, n + K);
@@ -239,7 +263,7 @@ impl<const K: usize> Family<K> {
                 derivative.set_column(n + k, &columns.column(k));
             }
         }
-        Ok((defect, derivative))
+        Ok(derivative)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Floquet multipliers of a periodic motion, and what they say about how it loses stability.
 
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::OrbitError;
@@ -76,16 +76,19 @@ pub fn multipliers(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, OrbitErro
     Ok(values)
 }
 
-/// The unit eigenvector of `matrix` to the real eigenvalue nearest to `multiplier`, by inverse iteration.
+/// The unit eigenvector of `matrix` to the eigenvalue nearest to `multiplier`, by inverse iteration.
 ///
 /// # Errors
 /// [`OrbitError::Singular`] when the iteration breaks down.
-pub(super) fn eigenvector(matrix: &DMatrix<f64>, multiplier: f64) -> Result<DVector<f64>, OrbitError> {
+pub(super) fn eigenvector<T: ComplexField<RealField = f64> + Copy>(
+    matrix: &DMatrix<T>,
+    multiplier: T,
+) -> Result<DVector<T>, OrbitError> {
     let n = matrix.nrows();
     // Away from the exact singularity, by less than the multiplier is known to.
-    let moved = matrix - DMatrix::identity(n, n) * (multiplier * (1.0 + 1e-9));
+    let moved = matrix - DMatrix::identity(n, n) * multiplier.scale(1.0 + 1e-9);
     let solver = moved.lu();
-    let mut direction = DVector::from_element(n, 1.0);
+    let mut direction = DVector::from_element(n, T::one());
     for _ in 0..4 {
         direction = solver.solve(&direction).ok_or(OrbitError::Singular)?.normalize();
     }

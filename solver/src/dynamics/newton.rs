@@ -86,6 +86,11 @@ impl OrbitSolver {
         &mut self.map
     }
 
+    /// Derivative of the map at the state evaluated last, scaled, (2N + 1) x (2N + 1).
+    pub(super) fn monodromy(&self) -> &DMatrix<f64> {
+        &self.matrix
+    }
+
     /// State of the orbit found last at t = 0, length 2N + 1.
     pub fn state(&self) -> &[f64] {
         &self.state
@@ -234,6 +239,20 @@ impl OrbitSolver {
         self.map.apply(&self.state, beta, periods, observer)?;
         self.take();
         Ok(self.residual)
+    }
+
+    /// As [`Self::evaluate_observed`] at `state`; returns the estimated error in units of what is allowed.
+    pub(super) fn evaluate_observed_at(
+        &mut self,
+        state: &[f64],
+        beta: f64,
+        periods: usize,
+        observer: impl FnMut(&Step<'_>, &StepDerivative<'_>),
+    ) -> Result<f64, OrbitError> {
+        self.begin(state)?;
+        let error = self.map.apply(&self.state, beta, periods, observer)?;
+        self.take();
+        Ok(error)
     }
 
     /// Takes derivative and defect over from the map.

@@ -12,6 +12,7 @@ use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips_after, legend};
 use crate::app::{colours, questions};
 use crate::dynamics::Instability;
+use crate::dynamics::curves::Criticality;
 use crate::jobs::study::Study as _;
 use crate::jobs::study::curves::PARAMETERS;
 use crate::model::Parameter;
@@ -53,7 +54,9 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         ui,
         &[
             (Series::Exact, tr("period doubling")),
+            (Series::Subcritical, &named(Instability::PeriodDoubling, Some(Criticality::Subcritical))),
             (Series::Torus, tr("Neimark–Sacker (torus)")),
+            (Series::SubcriticalTorus, &named(Instability::NeimarkSacker, Some(Criticality::Subcritical))),
             (Series::Fold, tr("fold")),
         ],
     );
@@ -70,11 +73,13 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let study = context.studies.curves.study().filter(|study| study.question().plane == question.plane);
     let current = study.is_some_and(|study| *study.question() == question);
     let curves = study.map_or(&[][..], |study| study.curves());
-    let lines: Vec<(Instability, String, Vec<PlotPoint>)> = curves
-        .iter()
-        .map(|curve| {
-            let line = curve.points.iter().map(|point| PlotPoint::new(point.at[0], point.at[1])).collect();
-            (curve.kind, colours::name(curve.kind).to_owned(), line)
+    let stretches = curves.iter().flat_map(|curve| {
+        curve.stretches().into_iter().map(move |stretch| (curve.kind, stretch.criticality, stretch.places))
+    });
+    let lines: Vec<(Series, String, Vec<PlotPoint>)> = stretches
+        .map(|(kind, criticality, places)| {
+            let line = places.iter().map(|at| PlotPoint::new(at[0], at[1])).collect();
+            (series(kind, criticality, current), named(kind, criticality), line)
         })
         .collect();
     let special: Vec<(String, PlotPoint)> = curves
@@ -91,7 +96,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
             let (low, high) = ([x_axis.range.0, y_axis.range.0], [x_axis.range.1, y_axis.range.1]);
             plot.set_plot_bounds(PlotBounds::from_min_max(low, high));
             for (kind, name, line) in &lines {
-                plot_style::series(plot, series(*kind, current), name, line);
+                plot_style::series(plot, *kind, name, line);
             }
             for (name, place) in &special {
                 plot_style::special_point(plot, &reworded(name), *place);
@@ -110,10 +115,23 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     }
 }
 
-const fn series(kind: Instability, current: bool) -> Series {
+/// The name of a bifurcation, with its criticality where it has one.
+fn named(kind: Instability, criticality: Option<Criticality>) -> String {
+    let kind = colours::name(kind);
+    match criticality {
+        None => kind.to_owned(),
+        Some(Criticality::Supercritical) => fill("{kind}, supercritical", &[("kind", &kind)]),
+        Some(Criticality::Subcritical) => fill("{kind}, subcritical", &[("kind", &kind)]),
+    }
+}
+
+fn series(kind: Instability, criticality: Option<Criticality>, current: bool) -> Series {
+    let subcritical = criticality == Some(Criticality::Subcritical);
     match kind {
         _ if !current => Series::Ghost,
+        Instability::PeriodDoubling if subcritical => Series::Subcritical,
         Instability::PeriodDoubling => Series::Exact,
+        Instability::NeimarkSacker if subcritical => Series::SubcriticalTorus,
         Instability::NeimarkSacker => Series::Torus,
         Instability::Fold => Series::Fold,
     }

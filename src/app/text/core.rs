@@ -7,7 +7,7 @@ use super::{fill_with, is_english, marked, tr};
 use crate::dynamics::motion::Motion;
 
 /// The sentences, the more special before the more general. A value may be another sentence.
-const SENTENCES: [&str; 132] = [
+const SENTENCES: [&str; 133] = [
     // Motions.
     marked("a start on the stable forced motion leads to another motion: {motion}, {volts} V rms"),
     marked("a start at rest leads to another motion: {motion}, {volts} V rms"),
@@ -78,6 +78,7 @@ const SENTENCES: [&str; 132] = [
     marked("flip-Neimark-Sacker"),
     marked("double Neimark-Sacker"),
     marked("generalized period doubling"),
+    marked("Chenciner"),
     // What is wrong with a device.
     marked(
         "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {c0} and h = {h} the gap d = {d} must be larger than {smallest}",

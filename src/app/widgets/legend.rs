@@ -25,6 +25,10 @@ pub enum Series {
     Poincare,
     /// Boundary of a torus: long dashes.
     Torus,
+    /// Boundary of a period doubling beyond which the motion jumps: short dashes.
+    Subcritical,
+    /// The same of a torus: wide dots.
+    SubcriticalTorus,
     /// Curve of folds: fine dots.
     Fold,
     /// A single point of the theory: a ring around what it predicts.
@@ -67,9 +71,9 @@ impl Series {
             Self::Theory | Self::TheoryPoint => tokens.theory,
             Self::Published => tokens.published,
             Self::Coupled => tokens.coupled,
-            Self::Exact => tokens.exact,
+            Self::Exact | Self::Subcritical => tokens.exact,
             Self::Poincare => tokens.poincare,
-            Self::Torus => tokens.poincare,
+            Self::Torus | Self::SubcriticalTorus => tokens.poincare,
             Self::Fold => tokens.warning,
             Self::Forced | Self::Best => tokens.exact,
             Self::Reached => tokens.numeric,
@@ -95,6 +99,8 @@ impl Series {
             Self::Exact => Pen::Line(3.0),
             Self::Poincare => Pen::Points(3.5),
             Self::Torus => Pen::Dashes(2.2, 14.0),
+            Self::Subcritical => Pen::Dashes(2.6, 6.0),
+            Self::SubcriticalTorus => Pen::Dots(2.4, 14.0),
             Self::Fold => Pen::Dots(1.8, 7.0),
             Self::TheoryPoint => Pen::Rings(6.0),
             Self::Forced => Pen::Points(4.5),

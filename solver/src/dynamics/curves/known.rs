@@ -106,7 +106,7 @@ mod tests {
         let mut known = KnownCurves::new(Plane::new([omega, beta])?);
         let point = |fraction: f64| {
             let at = [8.2 + 0.4 * fraction, 0.01 + 0.02 * fraction];
-            CurvePoint { at, state: vec![0.1 + 0.1 * fraction], v_rms: 1.0 }
+            CurvePoint { at, state: vec![0.1 + 0.1 * fraction], v_rms: 1.0, coefficient: None }
         };
         let points = vec![point(0.0), point(0.5), point(1.0)];
         let (kind, ends) = (Instability::Fold, [CurveEnd::Window, CurveEnd::Window]);

@@ -2,22 +2,23 @@
 //!
 //! * [`Start`], [`Curve`]: what goes in and comes out.
 //! * [`trace_curve`] follows one curve: `surface` is the surface of orbits over the plane with the curve's direction on
-//!   it, `condition` and `doubling` the scalars that vanish on the curve and at its special points, `station` what is
-//!   read at a point, `locate` finds what lies between two.
+//!   it, `condition` and `normal_form` the scalars that vanish on the curve and at its special points, `station` what is
+//!   read at a point, `between` what a test may do between two, `locate` finds the special points there.
 //! * [`find_curves`] finds the curves of a window, or its parts do: [`search_lines`], [`bifurcations_along_line`],
 //!   [`KnownCurves`].
 
+mod between;
 mod condition;
 mod curve;
-mod doubling;
 mod known;
 mod locate;
+mod normal_form;
 mod search;
 mod station;
 mod surface;
 mod tracer;
 
-pub use curve::{Curve, CurveEnd, CurvePoint, SpecialKind, SpecialPoint, Start};
+pub use curve::{Criticality, Curve, CurveEnd, CurvePoint, SpecialKind, SpecialPoint, Start, Stretch};
 pub use known::KnownCurves;
 pub use search::{Line, Search, Survey, bifurcations_along_line, find_curves, search_lines};
 pub use tracer::trace_curve;

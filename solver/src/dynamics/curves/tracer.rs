@@ -5,8 +5,9 @@
 //! Bifurcations of Dynamical Equilibria". The curve passes its own folds in either parameter and those of the surface
 //! of orbits. Points are good to about 1e-9 of the window.
 //!
-//! Where it stops working: two points of the same codimension-two kind within one step (a thirtieth of the window) are
-//! both overlooked. Where a second multiplier stays near the critical one along the curve, their resonance is located
+//! Where it stops working: a test for points of codimension two that vanishes twice within one step (a thirtieth of the
+//! window) is suspected by its values and slopes at the step's ends, and the step divided; where these do not show it,
+//! both points are overlooked. Where a second multiplier stays near the critical one along the curve, their resonance is located
 //! as well as the multipliers are known, to about 1e-6 of the window. A tip whose radius is below about 1e-6 of the
 //! window ends the curve: narrow the window, or start on its other side. Without any damping
 //! ([`ReducedSystem::undamped`]) there are no Neimark-Sacker curves, points of codimension two are not looked for, and
@@ -16,7 +17,7 @@ use nalgebra::DVector;
 
 use super::condition::Condition;
 use super::curve::{Curve, CurveEnd, CurvePoint, SpecialPoint, Start};
-use super::locate::KNOWN;
+use super::locate::{KNOWN, ends};
 use super::station::Station;
 use super::surface::Surface;
 use crate::dynamics::arclength::DIFFERENCE;
@@ -50,19 +51,18 @@ pub fn trace_curve(system: &ReducedSystem, start: &Start, plane: &Plane) -> Resu
         ModelError::check(axis.parameter.field(), value, axis.range, "")?;
     }
     let system = plane.system(system, start.at)?;
-    let undamped = system.undamped();
-    if undamped && start.kind == Instability::NeimarkSacker {
+    if system.undamped() && start.kind == Instability::NeimarkSacker {
         return Err(OrbitError::Undamped);
     }
     let mut surface = Surface::new(&system, plane, start.periods)?;
     let place = surface.family.place(&start.state, start.at);
-    surface.family.defect(&place)?;
+    let (_, derivative) = surface.family.linearised(&place, true)?;
     let multipliers = surface.family.solver.multipliers()?;
     let condition = Condition::at(start.kind, &multipliers).ok_or(OrbitError::Multipliers)?;
-    let near = surface.direction(&place, condition, None)?;
-    let place = surface.correct(&place, &near.tangent, condition, &near)?;
+    let near = surface.direction(&place, condition, &derivative, None)?;
+    let place = surface.correct(&place, &near.tangent, condition, &near.gradient)?;
     let origin = Station::read(&mut surface, place, condition, None)?;
-    let mut tracer = Tracer { surface, plane, undamped };
+    let mut tracer = Tracer { surface, plane };
     let back = tracer.side(origin.clone().reversed());
     let middle = origin.point(&tracer.surface);
     let forth = match back.end {
@@ -105,8 +105,6 @@ struct Side {
 pub(super) struct Tracer<'a> {
     pub(super) surface: Surface,
     pub(super) plane: &'a Plane,
-    /// Then multipliers are reciprocal in pairs, and the tests of codimension two vanish everywhere.
-    undamped: bool,
 }
 
 impl Tracer<'_> {
@@ -134,26 +132,26 @@ impl Tracer<'_> {
                 Ok(next) => next,
             };
             let after = side.points.len() + 1;
-            let end = match self.halved(&past, &here) {
-                None => self.terminal(&here, &next),
-                half => Ok(half),
-            };
-            match end {
-                Ok(None) => {}
-                Ok(Some((special, station))) => {
-                    side.special.push(station.special(&self.surface, special, after));
-                    side.points.push(station.point(&self.surface));
-                    side.end = CurveEnd::Meeting { special };
-                    break;
-                }
-                Err(reason) => {
-                    side.end = CurveEnd::Lost { reason: reason.to_string() };
-                    break;
+            let mut end = self.halved(&past, &here).or_else(|| self.leaves(&here, &next));
+            if end.is_none() && !self.surface.undamped {
+                for (kind, station) in self.specials(past.last(), &here, &next, 0) {
+                    if ends(&station, kind) {
+                        end = Some((kind, station));
+                        break;
+                    }
+                    side.special.push(station.special(&self.surface, kind, after));
                 }
             }
-            let special = if self.undamped { Vec::new() } else { self.specials(&here, &next) };
-            for (kind, station) in special {
-                side.special.push(station.special(&self.surface, kind, after));
+            if let Some((special, station)) = end {
+                side.special.push(station.special(&self.surface, special, after));
+                side.points.push(station.point(&self.surface));
+                side.end = CurveEnd::Meeting { special };
+                break;
+            }
+            if next.condition.cosine.abs() > 1.0 {
+                // The point in which it ends was not located.
+                side.end = CurveEnd::Lost { reason: OrbitError::Singular.to_string() };
+                break;
             }
             if after > 2 && self.returns(&origin, &here, &next) {
                 side.points.push(origin.point(&self.surface));
@@ -190,10 +188,11 @@ impl Tracer<'_> {
         // Short enough for the bend of the curve; no shorter than that needs, for the errors of the map.
         self.surface.family.difference = (DIFFERENCE * step / STEPS.0).clamp(0.1 * DIFFERENCE, DIFFERENCE);
         let mut guess = here.predict(before, step);
+        let gradient = here.gradient(before, step);
         let mut border = self.first_border(here.at(), self.surface.family.values(&guess));
         let mut next = None;
         if border.is_none() {
-            let station = self.land(here, &guess, &here.direction.normal)?;
+            let station = self.land(here, &guess, &here.direction.normal, &gradient)?;
             border = self.first_border(here.at(), station.at());
             next = border.is_none().then_some(station);
         }
@@ -205,7 +204,7 @@ impl Tracer<'_> {
                 guess = self.surface.family.with_value(place, k, value);
                 let mut normal = DVector::zeros(guess.len());
                 normal[guess.len() - 2 + k] = 1.0;
-                let next = self.land(here, &guess, &normal)?;
+                let next = self.land(here, &guess, &normal, &gradient)?;
                 if self.first_border(here.at(), next.at()).is_some() {
                     return Err(OrbitError::Singular);
                 }
@@ -244,14 +243,16 @@ impl Tracer<'_> {
         found
     }
 
-    /// The station at the curve's point in the hyperplane through `guess` with the `normal`.
+    /// The station at the curve's point in the hyperplane through `guess`, where the condition may have this `gradient`,
+    /// with the `normal`.
     pub(super) fn land(
         &mut self,
         from: &Station,
         guess: &DVector<f64>,
         normal: &DVector<f64>,
+        gradient: &DVector<f64>,
     ) -> Result<Station, OrbitError> {
-        let place = self.surface.correct(guess, normal, from.condition, &from.direction)?;
+        let place = self.surface.correct(guess, normal, from.condition, gradient)?;
         Station::read(&mut self.surface, place, from.condition, Some(from))
     }
 
@@ -278,7 +279,8 @@ impl Tracer<'_> {
         }
         let fraction = ahead(here) / (ahead(here) - ahead(next));
         let guess = super::station::cubic(here, next, fraction);
-        let found = self.surface.correct(&guess, &origin.direction.tangent, here.condition, &here.direction);
+        let found =
+            self.surface.correct(&guess, &origin.direction.tangent, here.condition, &here.direction.gradient);
         found.is_ok_and(|place| (place - &origin.place).amax() < 1e2 * SAME)
     }
 }

@@ -87,7 +87,11 @@ const PLOTS: [PlotOf; 14] = [
     PlotOf { name: "Poincaré map", lines: &[], marks: &[Poincare, TheoryPoint, Ghost] },
     PlotOf { name: "time history", lines: &[Numeric, Ghost], marks: &[Theory] },
     PlotOf { name: "multipliers", lines: &[Ghost], marks: &[Forced, Reached] },
-    PlotOf { name: "bifurcation curves", lines: &[Exact, Torus, Fold], marks: &[] },
+    PlotOf {
+        name: "bifurcation curves",
+        lines: &[Exact, Subcritical, Torus, SubcriticalTorus, Fold],
+        marks: &[],
+    },
     PlotOf { name: "orbit diagram", lines: &[], marks: &[Up, Down, Unsettled] },
     PlotOf { name: "response", lines: &[Stable, Unstable, Ghost], marks: &[Up, Down, Unsettled] },
     PlotOf {
