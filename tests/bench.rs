@@ -61,7 +61,7 @@ fn a_harvest_over_frequency_has_curves_and_bands() {
     assert!(curves["branches_missing"].is_null());
     // Where no branch can be followed it says why, and ended motions are no points.
     let hard = answer(&json!({
-        "task": "harvest", "parameters": {"alpha": 1e-4, "beta": 0.1, "omega": 4.0},
+        "task": "harvest", "parameters": {"alpha": 1e-4, "beta": 0.12, "omega": 4.0},
         "frequency": {"from": 1.2, "to": 1.6, "count": 3},
     }));
     let curves = &hard["curves"];

@@ -260,7 +260,8 @@ fn every_example_of_the_readme_has_an_answer() {
             }
             Some("find") => {
                 let generations = given["history"].as_array().map(|history| history.len() as u64);
-                assert_eq!(generations, asked["generations"].as_u64());
+                // The local search at the end takes 16 rounds.
+                assert_eq!(generations, asked["generations"].as_u64().map(|count| count + 16));
                 assert_eq!(given["evaluation"]["violation"], 0.0);
             }
             other => panic!("{other:?}"),

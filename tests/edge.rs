@@ -40,11 +40,8 @@ fn doubled_motions_just_beyond_the_tip_are_neither_chaos_nor_tori() {
         assert_period(&found, 2, 0.8726, 1e-4);
         assert!((number(&found["multiplier"]["modulus"]) - 0.99853).abs() < 1e-5);
     }
-    let found = verdict(
-        json!({"alpha": 1e-4, "omega": 8.16, "beta": 5e-4}),
-        none.clone(),
-        json!({"t_end": 2000.0}),
-    );
+    let found =
+        verdict(json!({"alpha": 1e-4, "omega": 8.16, "beta": 5e-4}), none.clone(), json!({"t_end": 2000.0}));
     assert_period(&found, 2, 1.809, 5e-4);
     let start = [
         0.001538494299546727,
@@ -159,7 +156,11 @@ fn tori_of_three_modes_are_decided_and_their_basins_agree() {
             "task": "basin", "parameters": parameters, "model": model, "count": 2, "x": side("q1"), "y": side("v"),
         }));
         let attractors = list(&basin["attractors"]);
-        assert_eq!((attractors.len(), &attractors[0]["motion"]), (1, &json!("quasiperiodic")), "{attractors:?}");
+        assert_eq!(
+            (attractors.len(), &attractors[0]["motion"]),
+            (1, &json!("quasiperiodic")),
+            "{attractors:?}"
+        );
         assert!((number(&attractors[0]["v_rms"]) / number(&found["v_rms"]) - 1.0).abs() < 1e-3);
     }
 }
@@ -177,8 +178,10 @@ fn the_torus_of_figure_4_turns_as_its_angle_says() {
         "tolerance": 1e-8,
     }));
     // Without the transient; displacement and velocity of mode 1, which vibrates at the torus' own frequency.
-    let points: Vec<[f64; 2]> =
-        list(&run["state"])[8000..].iter().map(|state| [number(&state[0]), number(&state[2]) / 4.05]).collect();
+    let points: Vec<[f64; 2]> = list(&run["state"])[8000..]
+        .iter()
+        .map(|state| [number(&state[0]), number(&state[2]) / 4.05])
+        .collect();
     let centre = [0, 1].map(|i| points.iter().map(|point| point[i]).sum::<f64>() / points.len() as f64);
     let angle = |point: &[f64; 2]| (point[1] - centre[1]).atan2(point[0] - centre[0]);
     let (mut sum, mut total) = (0.0, 0.0);

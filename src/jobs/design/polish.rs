@@ -1,8 +1,8 @@
 //! The end of a search: from its best places on by a pattern search (Torczon, SIAM J. Optim. 7, 1997) whose directions
 //! turn from round to round (as in Audet & Dennis, SIAM J. Optim. 17, 2006), so that a ridge along a limit is no trap.
 //!
-//! Each round tries a step forth and back along orthogonal directions about every centre; a better place is taken and
-//! the step lengthened, otherwise it is shortened. In the unit cube; the trials of a round are independent.
+//! Each round tries a step forth and back along orthogonal directions about every centre; a better place is taken, the
+//! step lengthened, and the same way tried again; where neither axes nor turned directions lead on it is shortened. In the unit cube; the trials of a round are independent.
 
 use super::evolution::SplitMix;
 
@@ -17,6 +17,8 @@ struct Centre {
     place: Vec<f64>,
     rank: (f64, f64),
     step: f64,
+    /// Unit vector of the last move, while it still leads on: along a limit few directions do.
+    onwards: Option<Vec<f64>>,
 }
 
 /// The centres and the places tried about them.
@@ -31,7 +33,7 @@ pub struct Polish {
 impl Polish {
     /// From places in the cube with their ranks, larger is better; the same `seed` goes the same way.
     pub fn new(places: Vec<(Vec<f64>, (f64, f64))>, seed: u64) -> Self {
-        let centre = |(place, rank)| Centre { place, rank, step: FIRST_STEP };
+        let centre = |(place, rank)| Centre { place, rank, step: FIRST_STEP, onwards: None };
         let centres = places.into_iter().map(centre).collect();
         let mut polish = Self { random: SplitMix(!seed), centres, round: 0, trials: Vec::new() };
         polish.aim();
@@ -48,13 +50,18 @@ impl Polish {
         let each = self.trials.len() / self.centres.len().max(1);
         let found = self.trials.chunks(each.max(1)).zip(ranks.chunks(each.max(1)));
         for (centre, (trials, ranks)) in self.centres.iter_mut().zip(found) {
-            let before = centre.rank;
+            let (start, before) = (centre.place.clone(), centre.rank);
             for (trial, rank) in trials.iter().zip(ranks) {
                 if *rank > centre.rank {
                     (centre.place, centre.rank) = (trial.clone(), *rank);
                 }
             }
-            centre.step *= if centre.rank > before { LONGER } else { SHORTER };
+            if centre.rank > before {
+                centre.step *= LONGER;
+                centre.onwards = unit(centre.place.iter().zip(&start).map(|(a, b)| a - b).collect());
+            } else if self.round % 2 == 1 {
+                (centre.step, centre.onwards) = (SHORTER * centre.step, None);
+            }
         }
         self.round += 1;
         self.aim();
@@ -62,10 +69,11 @@ impl Polish {
 
     fn aim(&mut self) {
         let dimension = self.centres.first().map_or(0, |centre| centre.place.len());
-        let directions = self.directions(dimension);
+        let random: Vec<f64> = (0..dimension).map(|_| 2.0 * self.random.unit() - 1.0).collect();
+        let turned = self.round % 2 == 1;
         self.trials.clear();
         for centre in &self.centres {
-            for direction in &directions {
+            for direction in &directions(if turned { Some(&random) } else { None }, centre, dimension) {
                 for sign in [1.0, -1.0] {
                     let moved = centre.place.iter().zip(direction);
                     let moved = moved.map(|(x, d)| (x + sign * centre.step * d).clamp(0.0, 1.0));
@@ -74,18 +82,26 @@ impl Polish {
             }
         }
     }
+}
 
-    /// Orthogonal unit vectors: the axes in even rounds, a random mirror image of them in odd ones.
-    fn directions(&mut self, dimension: usize) -> Vec<Vec<f64>> {
-        let mut normal: Vec<f64> = (0..dimension).map(|_| 2.0 * self.random.unit() - 1.0).collect();
-        let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let turned = self.round % 2 == 1 && length > 0.0;
-        normal.iter_mut().for_each(|x| *x = if turned { *x / length } else { 0.0 });
-        let mirrored = |i: usize| {
-            (0..dimension).map(|j| f64::from(u8::from(i == j)) - 2.0 * normal[i] * normal[j]).collect()
-        };
-        (0..dimension).map(mirrored).collect()
-    }
+/// Orthogonal unit vectors: the axes, or where the round is turned a mirror image of them, with the way onwards from
+/// `centre` as the first if it has one, else by a `random` mirror.
+fn directions(random: Option<&[f64]>, centre: &Centre, dimension: usize) -> Vec<Vec<f64>> {
+    let axis = |i: usize, j: usize| f64::from(u8::from(i == j));
+    let normal = random.and_then(|random| match &centre.onwards {
+        // The mirror that takes the first axis there; none is needed where it lies there already.
+        Some(onwards) => unit(onwards.iter().enumerate().map(|(j, x)| axis(0, j) - x).collect()),
+        None => unit(random.to_vec()),
+    });
+    let normal = normal.unwrap_or_else(|| vec![0.0; dimension]);
+    let mirrored = |i: usize| (0..dimension).map(|j| axis(i, j) - 2.0 * normal[i] * normal[j]).collect();
+    (0..dimension).map(mirrored).collect()
+}
+
+/// The vector of length 1 in the direction of `vector`; `None` for one without length.
+fn unit(vector: Vec<f64>) -> Option<Vec<f64>> {
+    let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (length > 0.0).then(|| vector.iter().map(|x| x / length).collect())
 }
 
 #[cfg(test)]

@@ -200,6 +200,12 @@ impl SimulateRequest {
             t.push(run.time());
             state.push(run.state().to_vec());
         }
+        let completed = end == Some(Outcome::Completed);
+        if completed {
+            t.push(self.t_end);
+            state.push(run.state().to_vec());
+        }
+        let t_outcome = if completed { self.t_end } else { run.time() };
         let outcome = match end {
             None => UNFINISHED,
             Some(Outcome::Completed) => word(Outcome::Completed),
@@ -209,7 +215,7 @@ impl SimulateRequest {
                 if linear.eigenvalues().iter().any(grows) { UNSTABLE } else { word(early) }
             }
         };
-        Ok(SimulateAnswer { t, state, outcome, t_outcome: run.time(), steps: run.steps() })
+        Ok(SimulateAnswer { t, state, outcome, t_outcome, steps: run.steps() })
     }
 
     /// The times of the samples that a run ending at `end` reaches, and last `end` itself.
