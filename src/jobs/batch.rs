@@ -4,11 +4,11 @@ use std::io::{self, BufRead, Read, Write};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use thiserror::Error;
 
-use super::budget::Budget;
+use super::budget::{Budget, now};
 use super::{input, parallel, solve, solve_within};
 
 /// Lines read before any is answered, for each core: enough to keep all busy, few enough to hold in memory.
@@ -105,10 +105,10 @@ fn answer_line_within(line: &Line, timeout: Duration) -> String {
     if let Err(error) = computation {
         return told(Err(format!("the line could not be computed: {error}")));
     }
-    let begun = Instant::now();
+    let begun = now();
     match receiver.recv_timeout(timeout) {
         // What came at the last moment came because its time was over.
-        Ok(answer) if begun.elapsed() < timeout.mul_f64(IN_TIME) => told(answer),
+        Ok(answer) if now() - begun < IN_TIME * seconds => told(answer),
         _ => told(Err(format!("not answered within {seconds} s, the time for a line"))),
     }
 }

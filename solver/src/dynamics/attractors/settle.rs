@@ -2,7 +2,7 @@
 //!
 //! 1. The motion is integrated. From time to time Newton's iteration looks for the periodic motion behind the last
 //!    stroboscopic states, with the periods that their recurrence suggests. A stable one counts as reached when the run
-//!    lies in its linear neighbourhood ([`super::neighbourhood`]); the numbers are then those of the orbit itself, however
+//!    lies in its linear neighbourhood (`super::neighbourhood`); the numbers are then those of the orbit itself, however
 //!    long the rest of the transient takes. Near an unstable one the run is leaving at a known rate: it goes on for as
 //!    long as that takes.
 //! 2. What is near no periodic motion is recorded with its tangent vectors. It is quasiperiodic when the weighted Birkhoff
@@ -148,7 +148,7 @@ impl Settler {
             effort,
             settler: self,
         }
-        .to_the_end()
+        .follow()
     }
 
     /// The stable periodic motions met so far.
@@ -243,7 +243,7 @@ struct Witnesses {
 }
 
 impl Run<'_> {
-    fn to_the_end(mut self) -> Result<Reached, IntegrationError> {
+    fn follow(mut self) -> Result<Reached, IntegrationError> {
         let mut next = FIRST_LOOK;
         loop {
             if let Some(outcome) = self.go_on_to(next)? {
