@@ -140,7 +140,7 @@ impl Surface {
             slope = -slope;
         }
         let coefficient = -0.5 * slope / (sum * self.family.length(&still));
-        let coefficient = coefficient.is_finite().then_some(coefficient);
+        let coefficient = (coefficient.is_finite() && !self.undamped).then_some(coefficient);
         Fold { still, heading: (ahead, part * length), coefficient }
     }
 

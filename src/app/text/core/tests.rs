@@ -214,3 +214,11 @@ fn english_stays_as_it_is_and_sentences_within_sentences_are_reworded() {
     reset();
     assert_eq!(german, "offen: die Befunde widersprechen sich");
 }
+
+#[test]
+fn every_point_of_codimension_two_has_its_name() {
+    for kind in crate::dynamics::curves::SpecialKind::ALL {
+        let name = kind.to_string();
+        assert!(!leaves(&name).contains(&name.as_str()), "{name}");
+    }
+}
