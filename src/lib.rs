@@ -4,18 +4,20 @@
 //!
 //! * [`model`], [`theory`] and [`dynamics`] are the solver core, a package of its own, so that it builds without the rest
 //!   and is compiled for speed while the page is compiled for size.
-//! * [`jobs`] is the one request and answer type that the page, JavaScript and the native command share.
+//! * [`questions`] is what can be asked, one type each for the page, JavaScript and the native command; [`scheduler`] brings
+//!   their pieces of work to cores and workers.
 //! * [`scenario`] is everything a view depends on, as stored and shared.
 //! * [`export`] writes plots as SVG and CSV, a report as HTML, and a question as a program.
 //! * `app` (feature `app`) is the egui front end; it draws what the other modules computed.
 //!
-//! Dependencies point one way: app -> export, jobs -> dynamics, theory -> model.
+//! Dependencies point one way: app -> export, questions -> scheduler, dynamics, theory -> model.
 
 pub use harvester_solver::{dynamics, model, theory};
 
 pub mod export;
-pub mod jobs;
+pub mod questions;
 pub mod scenario;
+pub mod scheduler;
 
 #[cfg(feature = "app")]
 pub mod app;

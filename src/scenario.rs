@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::model::{
-    Device, ElectricalScaling, MAX_MODES, ModelError, ParameterSet, Parameters, ReducedSystem, Units,
-    state_dimension,
+    Device, ElectricalScaling, MAX_MODES, ModelError, Parameter, ParameterSet, Parameters, ReducedSystem,
+    Units, state_dimension,
 };
 
 pub use crate::model::ModelChoice;
@@ -38,6 +38,21 @@ pub struct Scenario {
     pub scaling: ElectricalScaling,
 }
 
+/// What of a scenario plays no role in an answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Forgotten {
+    /// Where it starts.
+    Start,
+    /// How long it is shown.
+    Duration,
+    /// One of the ten numbers, which the question varies; this value stands for all.
+    Number(Parameter, f64),
+    /// Damping and dielectric loss, which come with a ceramic.
+    Ceramic,
+    /// The force law, and where there is no start the number of modes.
+    Model,
+}
+
 fn is_as_printed(scaling: &ElectricalScaling) -> bool {
     *scaling == ElectricalScaling::AsPrinted
 }
@@ -54,6 +69,21 @@ impl Default for Scenario {
             scaling: ElectricalScaling::default(),
         }
     }
+}
+
+/// Checks a number of things.
+///
+/// # Errors
+/// [`ModelError::Count`].
+pub fn counted(
+    field: &'static str,
+    value: usize,
+    (minimum, maximum): (usize, usize),
+) -> Result<(), ModelError> {
+    if (minimum..=maximum).contains(&value) {
+        return Ok(());
+    }
+    Err(ModelError::Count { field, value, minimum, maximum })
 }
 
 impl Scenario {
@@ -87,11 +117,33 @@ impl Scenario {
         Ok(())
     }
 
-    /// The same with nothing in its device but what the ten numbers leave open: of two scenarios that compute the same
-    /// both are then equal.
+    /// The same without what plays no role in an answer: of two scenarios that compute the same both are then equal, and
+    /// ask the same question. The device keeps only what the ten numbers leave open.
     #[must_use]
-    pub fn essential(self) -> Self {
-        Self { device: self.device.map(|device| device.left_open()), ..self }
+    pub fn forgetting(&self, forgotten: &[Forgotten]) -> Self {
+        let usual = Self::default();
+        let mut kept = self.clone();
+        for what in forgotten {
+            match *what {
+                Forgotten::Start => kept.initial = None,
+                Forgotten::Duration => kept.t_end = usual.t_end,
+                Forgotten::Number(parameter, value) => *parameter.get_mut(&mut kept.parameters) = value,
+                Forgotten::Ceramic => {
+                    kept.parameters.alpha = 0.0;
+                    let base = kept.device.get_or_insert_default();
+                    (base.ceramic, base.loss_tangent, base.viscosity) = (None, 0.0, 0.0);
+                }
+                Forgotten::Model => {
+                    kept.model.force = usual.model.force;
+                    // A start belongs to its number of modes.
+                    if kept.initial.is_none() {
+                        kept.model.modes = usual.model.modes;
+                    }
+                }
+            }
+        }
+        kept.device = kept.device.map(|device| device.left_open());
+        kept
     }
 
     /// The SI units in which the dimensionless quantities count.
@@ -120,15 +172,7 @@ impl Scenario {
         let system = self.model.system(self.parameters)?;
         let dimension = system.dimension();
         let initial = self.initial.clone().unwrap_or_else(|| vec![0.0; dimension]);
-        if initial.len() != dimension {
-            let (minimum, maximum) = (dimension, dimension);
-            return Err(ModelError::Count {
-                field: "numbers in initial",
-                value: initial.len(),
-                minimum,
-                maximum,
-            });
-        }
+        counted("numbers in initial", initial.len(), (dimension, dimension))?;
         for value in &initial {
             ModelError::check("initial", *value, (-1e6, 1e6), "")?;
         }

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use harvester_lab::dynamics::{Effort, Motion, Orbit, reach};
-use harvester_lab::jobs::study::basin::{Attractor, Basin, BasinQuestion};
-use harvester_lab::jobs::study::{Study, complete};
 use harvester_lab::model::{ParameterSet, ReducedSystem};
+use harvester_lab::questions::basin::{Attractor, Basin, BasinStudy, Side};
 use harvester_lab::scenario::Scenario;
+use harvester_lab::scheduler::{Study, complete};
 
 type TestResult = Result<(), Box<dyn std::error::Error>>;
 
@@ -21,10 +21,13 @@ fn scenario(omega: f64, initial: Option<Vec<f64>>) -> Scenario {
 
 /// The basins, with what must hold of all: shares that add up, in descending order, and each attractor's own start
 /// leading to it.
-fn basins(question: BasinQuestion) -> Result<(Basin, Vec<Attractor>), Box<dyn std::error::Error>> {
-    let (system, _): (ReducedSystem, _) = question.scenario.validate()?;
-    let (columns, rows) = question.size;
-    let mut basin = Basin::new(question)?;
+fn basins(
+    scenario: Scenario,
+    question: Basin,
+) -> Result<(BasinStudy, Vec<Attractor>), Box<dyn std::error::Error>> {
+    let (system, _): (ReducedSystem, _) = scenario.validate()?;
+    let mut basin = BasinStudy::new(scenario, question)?;
+    let (columns, rows) = basin.chart().question().size;
     complete(&mut basin);
     assert!(basin.finished() && basin.chart().failure().is_none());
     let attractors = basin.attractors();
@@ -42,6 +45,15 @@ fn basins(question: BasinQuestion) -> Result<(Basin, Vec<Attractor>), Box<dyn st
     Ok((basin, attractors))
 }
 
+/// Displacement and velocity of the first mode, on so many values each.
+fn first_mode(count: usize) -> Basin {
+    Basin { count: Some(count), ..Basin::default() }
+}
+
+fn side(component: &str, from: f64, to: f64) -> Option<Side> {
+    Some(Side { component: component.to_owned(), from, to, count: None })
+}
+
 fn with_motion(attractors: &[Attractor], motion: Motion) -> Vec<usize> {
     let same = |attractor: &&Attractor| attractor.cell.motion.same_class(&motion);
     attractors.iter().filter(same).map(|attractor| attractor.number).collect()
@@ -55,13 +67,12 @@ fn figure_4_has_a_torus_a_stable_forced_motion_and_escape() -> TestResult {
     let gap = system.equilibrium.gap;
     // Through the forced motion's own start, which is the cell in the middle.
     let (q, rate) = (forced.state[0], forced.state[2]);
-    let question = BasinQuestion {
-        scenario: scenario(omega, Some(forced.state.clone())),
-        x: (0, (q - gap, q + gap)),
-        y: (2, (rate - gap * OMEGA_1, rate + gap * OMEGA_1)),
-        size: (13, 13),
+    let question = Basin {
+        x: side("q1", q - gap, q + gap),
+        y: side("dq1/dt", rate - gap * OMEGA_1, rate + gap * OMEGA_1),
+        count: Some(13),
     };
-    let (basin, attractors) = basins(question)?;
+    let (basin, attractors) = basins(scenario(omega, Some(forced.state.clone())), question)?;
     let (torus, escape) = (Motion::Quasiperiodic, Motion::Escape { time: 0.0 });
     let periodic = Motion::Periodic { periods: 1 };
     for motion in [torus, escape, periodic] {
@@ -75,8 +86,7 @@ fn figure_4_has_a_torus_a_stable_forced_motion_and_escape() -> TestResult {
         assert!((a - b).abs() < 1e-7, "{attractor:?}");
     }
     // A plane through rest: the figure's own start leads to the torus, and to the same one.
-    let question = BasinQuestion::first_mode(scenario(omega, None), (5, 5))?;
-    let (basin, from_rest) = basins(question)?;
+    let (basin, from_rest) = basins(scenario(omega, None), first_mode(5))?;
     let middle = basin.shown(2, 2).flatten().ok_or("a motion")?;
     assert_eq!(from_rest[middle].cell.motion, torus);
     let there = attractors.iter().find(|attractor| attractor.cell.motion == torus).ok_or("a torus")?;
@@ -88,8 +98,7 @@ fn figure_4_has_a_torus_a_stable_forced_motion_and_escape() -> TestResult {
 fn figure_9_has_one_motion_of_period_2_although_both_its_phases_are_reached() -> TestResult {
     let scenario = scenario(2.0 * OMEGA_1, None);
     let (system, _) = scenario.validate()?;
-    let mut question = BasinQuestion::first_mode(scenario, (11, 11))?;
-    let (basin, attractors) = basins(question.clone())?;
+    let (basin, attractors) = basins(scenario.clone(), first_mode(11))?;
     let double = with_motion(&attractors, Motion::Periodic { periods: 2 });
     assert_eq!((double.len(), attractors.len()), (1, 2), "{attractors:?}");
     assert_eq!(with_motion(&attractors, Motion::Escape { time: 0.0 }).len(), 1);
@@ -101,7 +110,7 @@ fn figure_9_has_one_motion_of_period_2_although_both_its_phases_are_reached() ->
     for (column, row) in (0..11).flat_map(|row| (0..11).map(move |column| (column, row))) {
         let leads_there = basin.shown(column, row).flatten().is_some_and(|i| attractors[i] == *found);
         if leads_there {
-            let [q, rate] = question.motions().place((column, row));
+            let [q, rate] = basin.chart().question().place((column, row));
             let reached = reach(&system, &[q, 0.0, rate, 0.0, 0.0], Effort::full())?;
             let periods = (reached.time / system.parameters.period()).round() as u64;
             let near = (reached.state[0] - found.start[0]).abs() < 1e-3;
@@ -109,7 +118,7 @@ fn figure_9_has_one_motion_of_period_2_although_both_its_phases_are_reached() ->
         }
     }
     assert_eq!(phases.len(), 2, "both phases should be reached");
-    question.x.0 = 7;
-    assert!(Basin::new(question).is_err());
+    let none = Basin { x: side("q4", -0.1, 0.1), ..first_mode(11) };
+    assert!(BasinStudy::new(scenario, none).is_err());
     Ok(())
 }

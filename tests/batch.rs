@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-use harvester_lab::jobs::solve;
+use harvester_lab::questions::solve;
 use serde_json::Value;
 
 fn batch(requests: &[u8]) -> Output {

@@ -1,7 +1,7 @@
 //! The requests of the design bench.
 
-use harvester_lab::jobs::solve;
 use harvester_lab::model::Device;
+use harvester_lab::questions::solve;
 use serde_json::{Value, json};
 
 fn answer(request: &Value) -> Value {

@@ -199,6 +199,10 @@ fn input_that_is_no_text_is_refused_and_arguments_are_explained() {
         assert_eq!(output.status.code(), Some(0));
         assert!(String::from_utf8_lossy(&output.stdout).starts_with(start));
     }
+    let help = String::from_utf8_lossy(&harvester(&["--help"], b"").stdout).into_owned();
+    let tasks = help.lines().find_map(|line| line.strip_prefix("Tasks: ")).expect("the tasks");
+    let names = harvester_lab::questions::list::TASKS.map(|task| task.name).join(", ");
+    assert_eq!(tasks.trim_end_matches('.'), names);
     let output = harvester(&["--fast"], b"");
     assert_eq!(output.status.code(), Some(2));
     let message = String::from_utf8_lossy(&output.stderr);

@@ -1,7 +1,7 @@
 //! Requests at the edge of stability and of predictability that were once answered wrongly. The right values are those of
 //! runs to t = 20000 closed by Newton's iteration, and of an independent program.
 
-use harvester_lab::jobs::solve;
+use harvester_lab::questions::solve;
 use serde_json::{Value, json};
 
 fn answer(request: &Value) -> Value {

@@ -23,7 +23,7 @@ impl Source {
         for module in ["model", "theory", "dynamics"] {
             source.read_folder(&root.join("solver/src").join(module), module)?;
         }
-        source.read_folder(&root.join("src/jobs"), "jobs")?;
+        source.read_folder(&root.join("src/questions"), "questions")?;
         source.read_folder(&root.join("tests/design"), "design")?;
         source.read_folder(&root.join("tests/bifurcation_curves"), "bifurcation_curves")?;
         for entry in std::fs::read_dir(root.join("tests"))? {

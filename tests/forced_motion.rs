@@ -5,8 +5,8 @@ use harvester_lab::dynamics::{
     CriticalExcitation, ForcedMotion, Instability, Orbit, critical_excitation, largest_multipliers,
     resonance_boundary, trace_tongue,
 };
-use harvester_lab::jobs::solve;
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
+use harvester_lab::questions::solve;
 use harvester_lab::theory::Resonance;
 use nalgebra::{Complex, DMatrix, DVector};
 use serde_json::{Value, json};

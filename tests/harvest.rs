@@ -5,11 +5,11 @@
 use std::f64::consts::TAU;
 
 use harvester_lab::dynamics::{Balance, Motion, Orbit, Settings, Trajectory};
-use harvester_lab::jobs::design::linear::{linear_at_its_best, linear_curve};
-use harvester_lab::jobs::design::{Plant, operating};
 use harvester_lab::model::limits::Standing;
 use harvester_lab::model::materials::Ceramic;
 use harvester_lab::model::{Device, ElectricalScaling, ForceLaw, Limits, ParameterSet, ReducedSystem};
+use harvester_lab::questions::design::linear::{linear_at_its_best, linear_curve};
+use harvester_lab::questions::design::{Plant, operating};
 use harvester_lab::scenario::{ModelChoice, Scenario};
 use harvester_lab::theory::{LinearResponse, Source};
 use nalgebra::Complex;

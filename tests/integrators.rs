@@ -3,8 +3,8 @@
 
 use harvester_lab::dynamics::rk4::RungeKutta4;
 use harvester_lab::dynamics::{IntegrationError, Outcome, Settings, Trajectory};
-use harvester_lab::jobs::solve;
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
+use harvester_lab::questions::solve;
 use serde_json::Value;
 
 fn system(set: ParameterSet, modes: usize, law: ForceLaw) -> ReducedSystem {
@@ -179,7 +179,7 @@ fn the_classical_method_ends_at_the_end_with_a_shortened_step() {
     let request = r#"{"task":"simulate","method":"rk4","steps_per_period":1000,"t_end":2,"samples":4,
         "parameters":{"alpha":1e-4,"beta":0.01,"omega":9},"model":{"force":"exact"}}"#;
     let answer: serde_json::Value =
-        serde_json::from_str(&harvester_lab::jobs::solve(request).expect("an answer")).expect("JSON");
+        serde_json::from_str(&harvester_lab::questions::solve(request).expect("an answer")).expect("JSON");
     assert_eq!((&answer["t"][3], &answer["t_outcome"]), (&2.0.into(), &2.0.into()));
     // Two whole steps a period short of 2 is 2.9e-4: the states differ by 1e-3 there.
     let run = Trajectory::compute(&system, &[0.0; 5], 2.0, Settings { tolerance: 1e-8 }).expect("a run");

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use harvester_lab::jobs::design::measured::{Columns, Import, MeasuredError, detect, look};
-use harvester_lab::jobs::design::thin::{Thinner, extent};
+use harvester_lab::questions::design::measured::{Columns, Import, MeasuredError, detect, look};
+use harvester_lab::questions::design::thin::{Thinner, extent};
 
 fn read(text: &str, columns: Columns) -> Result<Vec<[f64; 2]>, MeasuredError> {
     let layout = detect(text.as_bytes())?;

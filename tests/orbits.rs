@@ -3,8 +3,8 @@
 #![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
 
 use harvester_lab::dynamics::{Instability, Orbit, OrbitError, PeriodMap, Settings, Trajectory};
-use harvester_lab::jobs::Run;
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
+use harvester_lab::questions::Run;
 use harvester_lab::scenario::{ModelChoice, Scenario};
 use harvester_lab::theory::LinearResponse;
 use harvester_lab::theory::spectrum::eigenvalues;

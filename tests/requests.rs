@@ -1,7 +1,7 @@
 //! Requests as people and their tools write them, good and bad, to every task.
 
-use harvester_lab::jobs::solve;
 use harvester_lab::model::STANDARD_GRAVITY;
+use harvester_lab::questions::solve;
 use serde_json::{Map, Value, json};
 
 /// A request that every task answers, or refuses for what is in it.

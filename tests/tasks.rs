@@ -1,6 +1,6 @@
 //! The larger tasks of a request against independent values and against one another.
 
-use harvester_lab::jobs::solve;
+use harvester_lab::questions::solve;
 use serde_json::{Value, json};
 
 /// The paper's omega_1, omega_2 in 40-digit arithmetic, rounded to a double's digits.

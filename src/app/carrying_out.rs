@@ -32,7 +32,7 @@ impl App {
             Command::Lesson(action) => self.follow_lesson(action),
             Command::Find(begin) => {
                 let question = begin.then(|| bench::questions::find(&self.view, &self.session));
-                let begun = self.crew.borrow_mut().studies.bench.search(question, &self.view);
+                let begun = self.crew.borrow_mut().studies.search(question, &self.view);
                 self.bench.refusal = begun.err();
             }
             Command::Measure(Some(reading)) => self.bench.measured.read(reading),
@@ -47,7 +47,7 @@ impl App {
             Command::Pin(keep) => {
                 self.session.pin(keep);
                 let crew = self.crew.borrow();
-                self.bench.pinned = keep.then(|| crew.studies.bench.pinned(&self.view.scenario));
+                self.bench.pinned = keep.then(|| crew.studies.pinned(&self.view.scenario));
             }
             Command::SetDark(dark) => self.view.dark = Some(dark),
             Command::Speak(language) => self.view.language = Some(language),

@@ -5,8 +5,8 @@ use super::figures::{BoundaryFigure, Figure};
 use super::map::Tongue;
 use crate::dynamics::Outcome;
 use crate::dynamics::summary::Summary;
-use crate::jobs::RunJob;
 use crate::model::{ForceLaw, ParameterSet};
+use crate::questions::RunJob;
 use crate::scenario::{ModelChoice, Scenario};
 use crate::theory::{CoupledModes, Published};
 

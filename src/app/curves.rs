@@ -3,8 +3,8 @@
 use egui_plot::PlotPoint;
 
 use crate::dynamics::Outcome;
-use crate::jobs::Run;
 use crate::model::ReducedSystem;
+use crate::questions::Run;
 use crate::theory::SteadyState;
 
 /// Samples of an excitation period in the phase portrait.

@@ -3,8 +3,8 @@
 use egui_plot::PlotPoint;
 
 use super::view::MapWindow;
-use crate::jobs::design::Plant;
 use crate::model::ReducedSystem;
+use crate::questions::design::Plant;
 use crate::scenario::{ModelChoice, Scenario};
 use crate::theory::{CoupledModes, Published, Resonance};
 

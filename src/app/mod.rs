@@ -248,7 +248,7 @@ impl App {
 
     /// Scenario, view and newest results as JSON; the format is described in the README.
     pub fn state_json(&self) -> String {
-        report::state(&self.view, &self.session, &mut self.crew.borrow_mut().studies)
+        report::state(&self.view, &self.session, &self.crew.borrow().studies)
     }
 
     /// Replaces scenario and view by what `json` holds: a view as stored, or a scenario alone.

@@ -2,87 +2,67 @@
 
 use super::map::{self, Boundaries};
 use super::session::Session;
-use super::view::View;
-use crate::jobs::motions::Coordinate;
-use crate::jobs::study::basin::BasinQuestion;
-use crate::jobs::study::curves::CurvesQuestion;
-use crate::jobs::study::motion_chart::MotionQuestion;
-use crate::jobs::study::multiplier_chart::MultiplierQuestion;
-use crate::jobs::study::sweep::SweepQuestion;
-use crate::jobs::work::Work;
-use crate::model::{ModelError, Parameter, ParameterSet, Shaking};
-use crate::scenario::Scenario;
+use super::view::{Layer, SweepView, View};
+use crate::model::{Parameter, ParameterSet, Shaking};
+use crate::questions::basin::Basin;
+use crate::questions::chart::{Chart, Quantity};
+use crate::questions::checks::Span;
+use crate::questions::curves::CurvesQuestion;
+use crate::questions::sweep::{Direction, Sweep};
+use crate::scenario::{Forgotten, Scenario};
 
 /// Columns and rows of the chart of multipliers.
 const CHART: (usize, usize) = (256, 256);
 /// The same of the chart of motions, and of the plane of starts.
 const MOTIONS: (usize, usize) = (80, 60);
-const BASIN: (usize, usize) = (64, 64);
+const BASIN: usize = 64;
 /// A structural parameter is swept from its value over this to its value times this.
 const SPAN: f64 = 4.0;
 /// A sweep that would be empty is widened to this fraction of the parameter's whole range.
 const LEAST_SPAN: f64 = 1e-3;
 
-/// The chart over the window of the map.
-pub(super) fn chart(view: &View, boundaries: &Boundaries) -> MultiplierQuestion {
+/// The chart over the window of the map: of multipliers, or of the motions reached from the scenario's start.
+pub(super) fn chart(view: &View, boundaries: &Boundaries) -> (Scenario, Chart) {
     let (low, high) = boundaries.range(view.map);
-    let omega = (low.max(Parameter::Omega.range().0), high);
-    let beta = (0.0, map::ceiling(view.map, view.scenario.parameters.beta));
-    let mut scenario = with(&view.scenario, Parameter::Omega, omega.0);
-    scenario.parameters.beta = 0.0;
-    scenario.initial = None;
-    MultiplierQuestion { scenario, omega, beta, size: CHART }
-}
-
-/// The motions reached from the scenario's start over the same window.
-pub(super) fn motions(view: &View, boundaries: &Boundaries) -> MotionQuestion {
-    let MultiplierQuestion { omega, beta, .. } = chart(view, boundaries);
-    let mut scenario = with(&view.scenario, Parameter::Omega, omega.0);
-    scenario.parameters.beta = 0.0;
-    scenario.t_end = Scenario::default().t_end;
-    MotionQuestion {
-        scenario,
-        x: (Coordinate::Parameter(Parameter::Omega), omega),
-        y: (Coordinate::Parameter(Parameter::Beta), beta),
-        size: MOTIONS,
-    }
+    let low = low.max(Parameter::Omega.range().0);
+    let quantity = match view.layer {
+        Layer::Multiplier => Quantity::Multiplier,
+        Layer::Motion => Quantity::Motion,
+        Layer::Voltage => Quantity::VRms,
+        Layer::Power => Quantity::Power,
+    };
+    let multipliers = quantity == Quantity::Multiplier;
+    let (columns, rows) = if multipliers { CHART } else { MOTIONS };
+    let omega = Span { from: low, to: high, count: columns };
+    let beta = Span { from: 0.0, to: map::ceiling(view.map, view.scenario.parameters.beta), count: rows };
+    let excitation = [Forgotten::Number(Parameter::Omega, low), Forgotten::Number(Parameter::Beta, 0.0)];
+    let scenario = view.scenario.forgetting(&excitation).forgetting(&[Forgotten::Duration]);
+    let scenario = if multipliers { scenario.forgetting(&[Forgotten::Start]) } else { scenario };
+    (scenario, Chart { omega, beta, quantity })
 }
 
 /// The basins of the scenario in view, whatever its start.
-///
-/// # Errors
-/// [`ModelError`] naming what of the scenario is out of range.
-pub(super) fn basin(view: &View) -> Result<BasinQuestion, ModelError> {
-    let scenario = Scenario { initial: None, t_end: Scenario::default().t_end, ..view.scenario.clone() };
-    BasinQuestion::first_mode(scenario, BASIN)
+pub(super) fn basin(view: &View) -> (Scenario, Basin) {
+    let scenario = view.scenario.forgetting(&[Forgotten::Start, Forgotten::Duration]);
+    (scenario, Basin { count: Some(BASIN), ..Basin::default() })
 }
 
-/// The sweep that the tab shows.
-pub(super) fn sweep(view: &View, session: &Session) -> SweepQuestion {
-    let parameter = view.sweep.parameter;
-    let range = sweep_range(view, session);
-    let scenario = with(&view.scenario, parameter, parameter.get(&ParameterSet::default()));
-    let (count, dwell) = (view.sweep.count, view.sweep.dwell);
-    SweepQuestion { scenario, parameter, shaking: Shaking::Amplitude, range, count, dwell }
-}
-
-/// The response curves over the same range.
-pub(super) fn response(view: &View, session: &Session) -> Work {
-    let parameter = view.sweep.parameter;
-    let range = sweep_range(view, session);
+/// The sweep that the tab shows, with its branches.
+pub(super) fn sweep(view: &View, session: &Session) -> (Scenario, Sweep) {
+    let SweepView { parameter, count, dwell, .. } = view.sweep;
+    let (from, to) = sweep_range(view, session);
     let anywhere = parameter.get(&ParameterSet::default());
-    let scenario = Scenario { initial: None, ..with(&view.scenario, parameter, anywhere) };
-    Work::Response { scenario, parameter, shaking: Shaking::Amplitude, range }
+    let scenario = view.scenario.forgetting(&[Forgotten::Duration, Forgotten::Number(parameter, anywhere)]);
+    let (direction, shaking) = (Direction::Up, Shaking::Amplitude);
+    let (transient, kept) = (dwell.discarded, dwell.kept);
+    (scenario, Sweep { parameter, from, to, count, direction, transient, kept, branches: true, shaking })
 }
 
 /// The bifurcation curves in the plane in view; `None` when it is empty.
 pub(super) fn curves(view: &View, session: &Session) -> Option<CurvesQuestion> {
     let axes = view.plane.map(|parameter| (parameter, range_of(view, session, parameter)));
-    let mut scenario = Scenario { initial: None, ..view.scenario.clone() };
-    scenario.t_end = Scenario::default().t_end;
-    for (parameter, (low, _)) in axes {
-        *parameter.get_mut(&mut scenario.parameters) = low;
-    }
+    let numbers = axes.map(|(parameter, (low, _))| Forgotten::Number(parameter, low));
+    let scenario = view.scenario.forgetting(&numbers).forgetting(&[Forgotten::Start, Forgotten::Duration]);
     CurvesQuestion::new(scenario, axes).ok()
 }
 
@@ -121,13 +101,6 @@ fn range_of(view: &View, session: &Session, parameter: Parameter) -> (f64, f64) 
     }
 }
 
-/// The scenario with what plays no role in a question set to a fixed value, so that it does not make it a new one.
-fn with(scenario: &Scenario, parameter: Parameter, value: f64) -> Scenario {
-    let mut scenario = Scenario { t_end: Scenario::default().t_end, ..scenario.clone() };
-    *parameter.get_mut(&mut scenario.parameters) = value;
-    scenario
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,7 +114,7 @@ mod tests {
         view.scenario.parameters.beta *= 0.9;
         view.scenario.parameters.omega += 0.1;
         assert_eq!(chart(&view, &boundaries), before);
-        assert!(before.validate().is_ok());
+        assert!(before.1.check().is_ok());
         view.scenario.parameters.alpha *= 2.0;
         assert_ne!(chart(&view, &boundaries), before);
     }
@@ -155,9 +128,11 @@ mod tests {
             view.sweep.parameter = parameter;
             for value in [Some((3.0, 1.0)), Some((1e9, -1e9)), Some((2.0, 2.0)), None] {
                 view.sweep.range = value;
-                let question = sweep(&view, &session);
-                assert!(question.validate().is_ok(), "{parameter:?} {value:?} {:?}", question.range);
-                assert!(question.range.1 > question.range.0);
+                let (scenario, question) = sweep(&view, &session);
+                let (from, to) = question.range();
+                let right = question.check().is_ok() && scenario.validate().is_ok();
+                assert!(right, "{parameter:?} {value:?} {from} {to}");
+                assert!(to > from);
             }
         }
     }

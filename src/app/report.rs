@@ -42,8 +42,8 @@ struct Answer<'a> {
 }
 
 /// The answer of `harvester.state()`.
-pub(super) fn state(view: &View, session: &Session, studies: &mut Studies) -> String {
-    let progress = studies.progress();
+pub(super) fn state(view: &View, session: &Session, studies: &Studies) -> String {
+    let progress: Vec<(&str, f64)> = studies.lanes.progress().collect();
     let (status, error) = match session.status() {
         Status::Done => ("done", None),
         Status::Computing(_) => ("computing", None),

@@ -7,7 +7,7 @@ use super::comparison::Comparison;
 use super::curves::Curves;
 use super::figures::Figure;
 use super::map::{Boundaries, Structure};
-use crate::jobs::{Run, RunJob};
+use crate::questions::{Run, RunJob};
 use crate::scenario::Scenario;
 
 /// Time a frame may spend on computing.

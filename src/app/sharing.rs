@@ -6,8 +6,8 @@ use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
 use crate::app::text::{Language, fill, reworded, tr};
-use crate::jobs::design::measured;
-use crate::jobs::input::{self, NoText};
+use crate::questions::design::measured;
+use crate::questions::input::{self, NoText};
 
 /// Name of saved files.
 const FILE_NAME: &str = "harvester-scenario.json";

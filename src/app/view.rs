@@ -17,10 +17,10 @@ pub use self::sweep::{Output, SweepView};
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
 use crate::app::text::{Language, fill, reworded};
-use crate::jobs::input::{self, FieldError};
-use crate::jobs::study::curves;
 use crate::model::{ModelError, Parameter};
-use crate::scenario::Scenario;
+use crate::questions::curves;
+use crate::questions::input::{self, FieldError};
+use crate::scenario::{Scenario, counted};
 
 /// Scenario and view, as stored.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -105,11 +105,11 @@ impl View {
         let is_view = value.get("scenario").is_some();
         let scenario = value.get("scenario").unwrap_or(&value);
         let numbers_follow = scenario.get("parameters").is_none();
-        let said = |FieldError { path, problem }| format!("{path}: {problem}");
+        let said = |error: FieldError| error.to_string();
         let mut view = if is_view {
-            input::fields(value).map_err(said)?
+            input::fields(&value).map_err(said)?
         } else {
-            Self { scenario: input::fields(value).map_err(said)?, ..present.clone() }
+            Self { scenario: input::fields(&value).map_err(said)?, ..present.clone() }
         };
         if let Some(device) = view.scenario.device.filter(|_| numbers_follow) {
             let scaling = view.scenario.scaling;
@@ -119,13 +119,9 @@ impl View {
         Ok(view)
     }
 
-    /// A view as JSON, not yet checked. An error has the path of the field and the deserialiser's own words.
+    /// A view as JSON, not yet checked. An error has the path of the field and what is wrong with it.
     pub(super) fn from_value(value: Value) -> Result<Self, String> {
-        serde_path_to_error::deserialize(value).map_err(
-            |error: serde_path_to_error::Error<serde_json::Error>| {
-                format!("{}: {}", error.path(), error.inner())
-            },
-        )
+        input::fields(&value).map_err(|error| error.to_string())
     }
 
     /// As JSON.
@@ -141,10 +137,7 @@ impl View {
         self.sweep.check().map_err(part("sweep"))?;
         self.design.check().map_err(part("design"))?;
         self.live.check().map_err(part("live"))?;
-        if !(1..=STEPS).contains(&self.step) {
-            let (field, value) = ("step", self.step);
-            return Err(part(field)(ModelError::Count { field, value, minimum: 1, maximum: STEPS }));
-        }
+        counted("step", self.step, (1, STEPS)).map_err(part("step"))?;
         let [x, y] = self.plane;
         if x == y || ![x, y].iter().all(|axis| curves::PARAMETERS.contains(axis)) {
             let allowed = curves::PARAMETERS.map(Parameter::field).join(", ");

@@ -9,23 +9,30 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::Duration;
 
-use harvester_lab::jobs::batch::{BatchError, Manner, answer_lines};
-use harvester_lab::jobs::budget::{Budget, now};
-use harvester_lab::jobs::{input, solve_within};
+use harvester_lab::questions::batch::{BatchError, Manner, answer_lines};
+use harvester_lab::questions::list::TASKS;
+use harvester_lab::questions::{input, solve_within};
+use harvester_lab::scheduler::budget::{Budget, now};
 
-const USAGE: &str = "usage: harvester < request.json > answer.json
+/// How the command is used.
+fn usage() -> String {
+    let tasks = TASKS.map(|task| task.name).join(", ");
+    format!(
+        "usage: harvester < request.json > answer.json
        harvester --batch [--timeout SECONDS] < requests.jsonl > answers.jsonl
 
 One JSON request on standard input, one JSON answer on standard output, for example
-  echo '{\"task\":\"modes\"}' | harvester
-Tasks: modes, boundary, simulate, orbit, chart, sweep, verdict, basin, harvest, load, materials, limits, trust, find,
-map. The README describes their fields. How far a request is stands on standard error when that is a terminal.
+  echo '{{\"task\":\"modes\"}}' | harvester
+Tasks: {tasks}.
+The README describes their fields. How far a request is stands on standard error when that is a terminal.
 
   --batch            one request a line, one answer a line in the same order, on all cores;
-                     a bad line is answered with {\"error\": ...}
-  --timeout SECONDS  for a line of a batch: one that is not answered by then is answered with {\"error\": ...}
+                     a bad line is answered with {{\"error\": ...}}
+  --timeout SECONDS  for a line of a batch: one that is not answered by then is answered with {{\"error\": ...}}
   --help             this text
-  --version          the version";
+  --version          the version"
+    )
+}
 
 /// Longest time for a line (s).
 const LONGEST: f64 = 1e7;
@@ -42,7 +49,7 @@ fn main() -> ExitCode {
         Ok(Mode::Single) => single(),
         Ok(Mode::Batch(timeout)) => batch(timeout),
         Ok(Mode::Say(text)) => say(&text),
-        Err(error) => fail(&format!("{error}\n{USAGE}")),
+        Err(error) => fail(&format!("{error}\n{}", usage())),
     }
 }
 
@@ -55,7 +62,7 @@ fn mode() -> Result<Mode, lexopt::Error> {
         match argument {
             Long("batch") => batch = true,
             Long("timeout") => timeout = Some(parser.value()?.parse_with(seconds)?),
-            Long("help") | Short('h') => return Ok(Mode::Say(USAGE.to_owned())),
+            Long("help") | Short('h') => return Ok(Mode::Say(usage())),
             Long("version") | Short('V') => {
                 return Ok(Mode::Say(format!("harvester {}", env!("CARGO_PKG_VERSION"))));
             }

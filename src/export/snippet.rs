@@ -13,7 +13,7 @@ pub fn rust(request: &str) -> String {
 // [dependencies]
 // harvester-lab = {{ path = \"harvester-lab\" }}
 
-use harvester_lab::jobs::solve;
+use harvester_lab::questions::solve;
 
 const REQUEST: &str = r{signs}\"{request}\"{signs};
 

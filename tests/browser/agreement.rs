@@ -3,7 +3,7 @@
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use harvester_lab::jobs::{Run, solve};
+use harvester_lab::questions::{Run, solve};
 use harvester_lab::scenario::Scenario;
 use serde_json::Value;
 

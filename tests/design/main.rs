@@ -4,23 +4,24 @@ mod search;
 mod within_limits;
 
 use harvester_lab::dynamics::sweep::Dwell;
-use harvester_lab::dynamics::tongue::Window;
 use harvester_lab::dynamics::{Motion, critical_excitation};
-use harvester_lab::jobs::design::band::{half_power, total, usable};
-use harvester_lab::jobs::design::load::{best, best_frequency};
-use harvester_lab::jobs::design::materials::with_ceramic;
-use harvester_lab::jobs::design::point::powers;
-use harvester_lab::jobs::design::trust::{LAWS, Quantity, force_beyond_linear, law_error, trust_entry};
-use harvester_lab::jobs::design::{DesignWork, Plant, operating};
-use harvester_lab::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
-use harvester_lab::jobs::study::load::{LoadQuestion, LoadStudy};
-use harvester_lab::jobs::study::sweep::Direction;
-use harvester_lab::jobs::study::table::Table;
-use harvester_lab::jobs::study::{Study, complete};
-use harvester_lab::jobs::work::Work;
 use harvester_lab::model::materials::Ceramic;
 use harvester_lab::model::{ForceLaw, Limits, ParameterSet, Shaking};
+use harvester_lab::questions::checks::Span;
+use harvester_lab::questions::design::band::{half_power, total, usable};
+use harvester_lab::questions::design::load::{best, best_frequency};
+use harvester_lab::questions::design::materials::with_ceramic;
+use harvester_lab::questions::design::point::powers;
+use harvester_lab::questions::design::trust::{LAWS, Quantity, force_beyond_linear, law_error, trust_entry};
+use harvester_lab::questions::design::{Plant, operating};
+use harvester_lab::questions::harvest::{Harvest, HarvestStudy};
+use harvester_lab::questions::load::Reached;
+use harvester_lab::questions::load::{Load, LoadStudy};
+use harvester_lab::questions::materials::Materials;
+use harvester_lab::questions::sweep::Direction;
+use harvester_lab::questions::trust::Trust;
 use harvester_lab::scenario::Scenario;
+use harvester_lab::scheduler::{Study, complete};
 use harvester_lab::theory::Resonance;
 
 type TestResult = Result<(), Box<dyn std::error::Error>>;
@@ -32,8 +33,7 @@ fn figure_9() -> Scenario {
 
 #[test]
 fn the_doubled_motion_is_followed_over_loads_and_the_linear_optimum_is_the_closed_form() -> TestResult {
-    let question = LoadQuestion { per_decade: 4, ..LoadQuestion::about(figure_9(), None)? };
-    let mut study = LoadStudy::new(question)?;
+    let mut study = LoadStudy::new(figure_9(), Load { per_decade: 4, ..Load::default() })?;
     complete(&mut study);
     assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
     assert_eq!(study.resistances().len(), 25);
@@ -68,17 +68,12 @@ fn the_doubled_motion_is_followed_over_loads_and_the_linear_optimum_is_the_close
 #[test]
 fn an_open_circuit_begins_with_the_largest_load() -> TestResult {
     let parameters = ParameterSet { kappa: 0.0, ..figure_9().parameters };
-    let question = LoadQuestion::about(Scenario { parameters, ..Default::default() }, None)?;
-    let mut study = LoadStudy::new(LoadQuestion { per_decade: 1, ..question })?;
+    let scenario = Scenario { parameters, ..Default::default() };
+    let mut study = LoadStudy::new(scenario, Load { per_decade: 1, ..Load::default() })?;
     let largest = *study.resistances().last().ok_or("loads")?;
-    let works: Vec<Work> = std::iter::from_fn(|| study.next()).map(|(_, work)| work).collect();
-    let firsts: Vec<f64> = works
-        .iter()
-        .filter_map(|work| match work {
-            Work::Design(DesignWork::ReachedLoads { resistances, .. }) => resistances.first().copied(),
-            _ => None,
-        })
-        .collect();
+    let orders: Vec<_> = std::iter::from_fn(|| study.next()).collect();
+    let reached = orders.iter().filter_map(|order| order.piece::<Reached>());
+    let firsts: Vec<f64> = reached.filter_map(|piece| piece.resistances.first().copied()).collect();
     assert_eq!(firsts, [largest, largest]);
     Ok(())
 }
@@ -119,9 +114,10 @@ fn so_do_those_at_the_same_acceleration() -> TestResult {
 fn curves_agree(shaking: Shaking) -> TestResult {
     let scenario = figure_9();
     let dwell = Dwell { discarded: 300, kept: 16 };
-    let question =
-        HarvestQuestion { scenario: scenario.clone(), window: (7.6, 8.7), shaking, count: 23, dwell };
-    let mut study = HarvestStudy::new(question)?;
+    let units = scenario.units();
+    let frequency = Span { from: units.hertz(7.6), to: units.hertz(8.7), count: 23 };
+    let question = Harvest { hold: shaking, dwell, ..Harvest::default() };
+    let mut study = HarvestStudy::new(scenario.clone(), question, frequency)?;
     complete(&mut study);
     assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
     let branches = study.branches().ok_or("known")?.map_err(str::to_owned)?;
@@ -177,9 +173,9 @@ fn curves_agree(shaking: Shaking) -> TestResult {
 
 #[test]
 fn every_ceramic_has_its_row_and_harder_ones_need_less() -> TestResult {
-    let mut table = Table::materials(&figure_9(), 1, Resonance::First, Window::default());
+    let mut table = Materials::default().table(&figure_9());
     complete(&mut table);
-    let rows: Vec<_> = table.material_rows().flatten().collect::<Result<_, _>>()?;
+    let rows: Vec<_> = table.found().flatten().collect::<Result<_, _>>()?;
     assert_eq!(rows.len(), 9);
     for row in &rows {
         println!("{row:?}");
@@ -208,9 +204,9 @@ fn every_ceramic_has_its_row_and_harder_ones_need_less() -> TestResult {
 
 #[test]
 fn trust_is_a_table_of_modes_and_laws() -> TestResult {
-    let mut table = Table::trust(&figure_9(), Quantity::Voltage);
+    let mut table = Trust { quantity: Quantity::Voltage }.table(&figure_9());
     complete(&mut table);
-    let entries: Vec<_> = table.trust_entries().flatten().collect::<Result<_, _>>()?;
+    let entries: Vec<_> = table.found().flatten().collect::<Result<_, _>>()?;
     assert_eq!(entries.len(), 32);
     let of = |modes, law| entries.iter().find(|e| e.modes == modes && e.law == law).and_then(|e| e.value);
     for entry in &entries {

@@ -1,16 +1,15 @@
 //! The search for designs, and the maps that it is looked over in.
 
-use harvester_lab::jobs::design::find::{Evaluation, FindQuestion, Objective, Variable, evaluate};
-use harvester_lab::jobs::design::{DesignFinding, DesignWork, Plant, operating};
-use harvester_lab::jobs::motions::{Coordinate, at_place};
-use harvester_lab::jobs::study::find::{FindStudy, NEIGHBOURS, ROUNDS};
-use harvester_lab::jobs::study::map::DesignMap;
-use harvester_lab::jobs::study::motion_chart::{MotionChart, MotionQuestion};
-use harvester_lab::jobs::study::{Study, complete};
-use harvester_lab::jobs::work::{Finding, Work};
 use harvester_lab::model::materials::Ceramic;
 use harvester_lab::model::{Device, Dimension, ForceLaw, Limits, Parameter};
+use harvester_lab::questions::design::find::{Evaluation, FindQuestion, Objective, Variable, evaluate};
+use harvester_lab::questions::design::{Plant, operating};
+use harvester_lab::questions::find::{Evaluate, FindStudy, NEIGHBOURS, ROUNDS};
+use harvester_lab::questions::map::DesignMap;
+use harvester_lab::questions::motion_chart::{MotionChart, MotionQuestion};
+use harvester_lab::questions::motions::{Coordinate, at_place};
 use harvester_lab::scenario::{ModelChoice, Scenario};
+use harvester_lab::scheduler::{Finding, Study, complete};
 
 use super::{TestResult, figure_9};
 
@@ -107,12 +106,10 @@ fn a_best_one_at_an_edge_is_told_from_one_on_a_summit() -> TestResult {
     let summit = |hertz: f64| 3.0 - (hertz - 3.0).powi(2);
     for (power, cliff) in [(&edge as &dyn Fn(f64) -> f64, true), (&summit, false)] {
         let mut study = FindStudy::new(question(Objective::Power, Limits::default()), 5, 1)?;
-        while let Some((ticket, work)) = study.next() {
-            let Work::Design(DesignWork::Candidate { values, .. }) = work else {
-                return Err("a candidate".into());
-            };
+        while let Some(order) = study.next() {
+            let values = &order.piece::<Evaluate>().ok_or("a candidate")?.values;
             let found = Evaluation { value: Some(power(values[0])), violation: 0.0, motion: None };
-            study.take(ticket, Ok(Finding::Design(DesignFinding::Candidate(found))));
+            order.found(&mut study, Ok(Finding::Here(Box::new(found))));
         }
         assert!(study.finished() && study.progress() == 1.0);
         let best = study.best().ok_or("a candidate")?;
@@ -130,13 +127,15 @@ fn a_best_one_at_an_edge_is_told_from_one_on_a_summit() -> TestResult {
 fn a_stopped_search_keeps_the_best_so_far_and_asks_for_nothing_more() -> TestResult {
     let mut study = FindStudy::new(question(Objective::Power, Limits::default()), 500, 7)?;
     while study.history().len() < 2 {
-        let (ticket, work) = study.next().ok_or("a candidate")?;
-        study.take(ticket, work.carry_out());
+        let order = study.next().ok_or("a candidate")?;
+        let found = order.carry_out();
+        order.found(&mut study, found);
     }
-    let (late, work) = study.next().ok_or("a candidate")?;
+    let late = study.next().ok_or("a candidate")?;
     let (best, visited) = (study.best().cloned(), study.visited().len());
     study.stop();
-    study.take(late, work.carry_out());
+    let found = late.carry_out();
+    late.found(&mut study, found);
     assert!(study.finished() && study.next().is_none() && study.failure().is_none());
     assert!(best.is_some() && study.best() == best.as_ref() && study.visited().len() == visited);
     Ok(())

@@ -2,16 +2,17 @@
 
 use harvester_lab::dynamics::Instability;
 use harvester_lab::dynamics::sweep::{Course, Dwell, sweep};
-use harvester_lab::jobs::design::band::usable;
-use harvester_lab::jobs::design::point::powers;
-use harvester_lab::jobs::design::{Asked, Bounds, Plant, operating};
-use harvester_lab::jobs::solve;
-use harvester_lab::jobs::study::harvest::{HarvestQuestion, HarvestStudy};
-use harvester_lab::jobs::study::load::{LoadQuestion, LoadStudy};
-use harvester_lab::jobs::study::sweep::Direction;
-use harvester_lab::jobs::study::{Study, complete};
 use harvester_lab::model::{Device, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet, Shaking};
+use harvester_lab::questions::checks::Span;
+use harvester_lab::questions::design::band::usable;
+use harvester_lab::questions::design::point::powers;
+use harvester_lab::questions::design::{Asked, Bounds, Plant, operating};
+use harvester_lab::questions::harvest::{Harvest, HarvestStudy};
+use harvester_lab::questions::load::{Load, LoadStudy};
+use harvester_lab::questions::solve;
+use harvester_lab::questions::sweep::Direction;
 use harvester_lab::scenario::Scenario;
+use harvester_lab::scheduler::{Study, complete};
 
 use crate::{TestResult, figure_9};
 
@@ -22,9 +23,10 @@ fn a_band_ends_where_the_motion_itself_meets_the_limit() -> TestResult {
     let limits = Limits { voltage: Some((volts, volts)), ..Limits::default() };
     let bounds = Bounds::new(&plant, limits)?;
     let (dwell, shaking) = (Dwell { discarded: 100, kept: 8 }, Shaking::Amplitude);
-    let question =
-        HarvestQuestion { scenario: scenario.clone(), window: (7.9, 8.7), shaking, count: 2, dwell };
-    let mut study = HarvestStudy::new(question)?;
+    let units = scenario.units();
+    let frequency = Span { from: units.hertz(7.9), to: units.hertz(8.7), count: 2 };
+    let question = Harvest { hold: shaking, dwell, ..Harvest::default() };
+    let mut study = HarvestStudy::new(scenario.clone(), question, frequency)?;
     complete(&mut study);
     // The doubled motion alone gives more than 5 µW; it needs more than 20 V below this frequency.
     let found = usable(&bounds.powers_within(&study.stable_pieces()), 5e-6);
@@ -65,7 +67,7 @@ fn every_load_keeps_the_limits_that_its_motion_keeps_the_slope_included() -> Tes
     let scenario = Scenario { parameters, ..Default::default() };
     let (plant, limits) = (Plant::new(&scenario)?, Limits::default());
     let bounds = Bounds::new(&plant, limits)?;
-    let mut study = LoadStudy::new(LoadQuestion { per_decade: 2, ..LoadQuestion::about(scenario, None)? })?;
+    let mut study = LoadStudy::new(scenario, Load { per_decade: 2, ..Load::default() })?;
     complete(&mut study);
     let mut kept = 0;
     for point in study.reached().iter().flatten() {
@@ -134,12 +136,13 @@ fn a_swept_curve_jumps_where_the_branch_folds_and_its_band_ends_there() -> TestR
     let (dwell, shaking) = (Dwell::default(), Shaking::Amplitude);
     let units = scenario.units();
     let window = (units.omega(1.35), units.omega(1.65));
-    let question = HarvestQuestion { scenario, window, shaking, count: 31, dwell };
-    let mut study = HarvestStudy::new(question)?;
+    let units = scenario.units();
+    let frequency = Span { from: units.hertz(window.0), to: units.hertz(window.1), count: 31 };
+    let question = Harvest { hold: shaking, dwell, ..Harvest::default() };
+    let mut study = HarvestStudy::new(scenario, question, frequency)?;
     complete(&mut study);
     assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
     let curves = study.branches().ok_or("known")?.map_err(str::to_owned)?;
-    let units = study.question().scenario.units();
     let folds =
         curves.iter().flat_map(|curve| &curve.changes).filter(|change| change.kind == Instability::Fold);
     let fold = folds.map(|change| units.hertz(change.point.value)).fold(0.0, f64::max);

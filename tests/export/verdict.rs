@@ -3,7 +3,7 @@
 // [dependencies]
 // harvester-lab = { path = "harvester-lab" }
 
-use harvester_lab::jobs::solve;
+use harvester_lab::questions::solve;
 
 const REQUEST: &str = r#"{"task":"verdict",
  "parameters":{"alpha":1e-4,"beta":0.01,"omega":8.0969},

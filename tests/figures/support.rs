@@ -1,8 +1,8 @@
 //! Runs of the paper's device, what is read off them, and how they are compared with tests/reference/figures.py.
 
 use harvester_lab::dynamics::Outcome;
-use harvester_lab::jobs::Run;
 use harvester_lab::model::{ForceLaw, ParameterSet};
+use harvester_lab::questions::Run;
 use harvester_lab::scenario::{ModelChoice, Scenario};
 use nalgebra::DVector;
 

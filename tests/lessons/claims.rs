@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 
 use harvester_lab::app::lessons::LessonId;
-use harvester_lab::jobs;
+use harvester_lab::questions;
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::Value;
@@ -52,7 +52,7 @@ impl Solver {
             Some(answer) => answer,
             None => {
                 let answer: Value =
-                    serde_json::from_str(&jobs::solve(&text)?).map_err(|error| error.to_string())?;
+                    serde_json::from_str(&questions::solve(&text)?).map_err(|error| error.to_string())?;
                 self.0.lock().map_err(|_| "a panic elsewhere")?.insert(text, answer.clone());
                 answer
             }
@@ -89,7 +89,7 @@ pub(super) fn printed(text: &str) -> Option<(f64, f64)> {
 pub(super) fn claims(id: LessonId, step: usize) -> Vec<Claim> {
     let lesson: Value = serde_json::from_str(id.source()).expect("JSON");
     let claims = lesson["steps"][step - 1].get("claims").cloned().unwrap_or_else(|| Value::Array(Vec::new()));
-    serde_path_to_error::deserialize(claims).unwrap_or_else(|error| panic!("{id}, step {step}: {error}"))
+    questions::input::fields(&claims).unwrap_or_else(|error| panic!("{id}, step {step}: {error}"))
 }
 
 #[test]

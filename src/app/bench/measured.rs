@@ -7,8 +7,8 @@ use egui_plot::PlotPoint;
 use crate::app::clock::milliseconds;
 use crate::app::session::Shown;
 use crate::app::text::reworded;
-use crate::jobs::design::measured::{Columns, Import, Layout, MeasuredError, detect};
-use crate::jobs::design::thin::{Thinner, extent};
+use crate::questions::design::measured::{Columns, Import, Layout, MeasuredError, detect};
+use crate::questions::design::thin::{Thinner, extent};
 
 /// Time that a frame may spend on reading, and rows between looks at the clock.
 const BUDGET_MS: f64 = 6.0;

@@ -6,9 +6,9 @@ pub(super) mod questions;
 use measured::Measured;
 
 use super::view::View;
-use crate::jobs::design::Operating;
-use crate::jobs::study::harvest::HarvestStudy;
 use crate::model::{Device, Dimension, ElectricalScaling, Limits, ModelError};
+use crate::questions::design::Operating;
+use crate::questions::harvest::HarvestStudy;
 use crate::scenario::{ModelChoice, Scenario};
 
 /// What the bench keeps beside the view.
@@ -74,10 +74,12 @@ fn chosen_limits(view: &View) -> Limits {
 mod tests {
     use super::*;
     use crate::app::session::Session;
-    use crate::jobs::study::harvest::HarvestQuestion;
-    use crate::jobs::study::load::LoadStudy;
-    use crate::jobs::work::Work;
     use crate::model::ElectricalScaling;
+    use crate::questions::checks::Span;
+    use crate::questions::harvest::Harvest;
+    use crate::questions::load::BestAt;
+    use crate::questions::load::LoadStudy;
+    use crate::questions::trust::Entry;
 
     #[test]
     fn a_device_keeps_its_digits_until_a_number_moves_it() {
@@ -91,9 +93,9 @@ mod tests {
     }
 
     struct Asked {
-        harvest: HarvestQuestion,
-        best: Vec<Work>,
-        trust: Vec<Work>,
+        harvest: (Scenario, Harvest, Span),
+        best: Vec<BestAt>,
+        trust: Vec<Entry>,
     }
 
     #[test]
@@ -106,11 +108,12 @@ mod tests {
             change(&mut entered);
             view.scenario.set_device(entered, ElectricalScaling::AsPrinted).expect("a device");
             view.design.window = Some((2.6, 3.0));
-            let loads = LoadStudy::new(questions::load(&view).expect("loads")).expect("loads");
+            let (scenario, load) = questions::load(&view);
+            let loads = LoadStudy::new(scenario, load).expect("loads");
             Asked {
                 harvest: questions::harvest(&view, &session),
-                best: questions::best_frequencies(&view, &session, &loads).works().to_vec(),
-                trust: questions::trust(&view).works().to_vec(),
+                best: questions::best_frequencies(&view, &session, &loads).pieces().to_vec(),
+                trust: questions::trust(&view).pieces().to_vec(),
             }
         };
         let before = questions(false, &|_| {});

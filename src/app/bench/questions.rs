@@ -6,17 +6,16 @@ use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::view::design::{Aim, Side};
 use crate::app::widgets::number::round_significant;
-use crate::dynamics::sweep::Dwell;
-use crate::dynamics::tongue::Window as TongueWindow;
-use crate::jobs::design::DesignWork;
-use crate::jobs::design::find::{FindQuestion, Objective, Variable};
-use crate::jobs::motions::{Coordinate, at_place};
-use crate::jobs::study::harvest::HarvestQuestion;
-use crate::jobs::study::load::{LoadQuestion, LoadStudy};
-use crate::jobs::study::table::Table;
-use crate::jobs::work::Work;
 use crate::model::{Dimension, Parameter, Shaking};
-use crate::scenario::{ModelChoice, Scenario};
+use crate::questions::checks::Span;
+use crate::questions::design::find::{FindQuestion, Objective, Variable};
+use crate::questions::harvest::Harvest;
+use crate::questions::load::{BestAt, Load, LoadStudy};
+use crate::questions::materials::{Fitted, Materials};
+use crate::questions::motions::{Coordinate, at_place};
+use crate::questions::trust::{Entry, Trust};
+use crate::scenario::{Forgotten, Scenario};
+use crate::scheduler::Table;
 
 /// Loads whose best frequency is looked for: every so many of those in view.
 const EVERY_LOAD: usize = 2;
@@ -36,15 +35,17 @@ pub(in crate::app) fn shaking(view: &View) -> Shaking {
     if view.design.holds_acceleration { Shaking::Acceleration } else { Shaking::Amplitude }
 }
 
-/// The scenario where the frequency of a curve begins, for one in which the present frequency plays no role.
-fn at_the_beginning(view: &View, scenario: Scenario, window: (f64, f64)) -> Scenario {
+/// The scenario at rest where the frequency of a curve begins, for one in which the present frequency plays no role; a
+/// dielectric loss is that at the present one.
+fn at_the_beginning(view: &View, window: (f64, f64)) -> Scenario {
+    let scenario = view.scenario.forgetting(&[Forgotten::Start, Forgotten::Duration]);
     if scenario.base().loss_tangent > 0.0 {
         return scenario;
     }
     // Rounded, so that going along the curve and back makes no other question.
-    let mut set = shaking(view).at(&scenario.parameters, Parameter::Omega, window.0);
-    set.beta = round_significant(set.beta, 12);
-    Scenario { parameters: set, ..scenario }
+    let set = shaking(view).at(&scenario.parameters, Parameter::Omega, window.0);
+    let beta = Forgotten::Number(Parameter::Beta, round_significant(set.beta, 12));
+    scenario.forgetting(&[Forgotten::Number(Parameter::Omega, set.omega), beta])
 }
 
 /// Lowest and highest omega (dimensionless) of the curves: as chosen, or the map's window about the present frequency.
@@ -75,55 +76,44 @@ pub(in crate::app) fn window(view: &View, session: &Session) -> (f64, f64) {
 }
 
 /// The curves over frequency.
-pub(in crate::app) fn harvest(view: &View, session: &Session) -> HarvestQuestion {
+pub(in crate::app) fn harvest(view: &View, session: &Session) -> (Scenario, Harvest, Span) {
     let window = window(view, session);
-    let scenario = Scenario { initial: None, ..view.scenario.clone() };
-    let scenario = at_the_beginning(view, scenario, window).essential();
-    HarvestQuestion { scenario, window, shaking: shaking(view), count: FREQUENCIES, dwell: Dwell::default() }
+    let units = view.scenario.units();
+    let frequency = Span { from: units.hertz(window.0), to: units.hertz(window.1), count: FREQUENCIES };
+    let question = Harvest { frequency: Some(frequency), hold: shaking(view), ..Harvest::default() };
+    (at_the_beginning(view, window), question, frequency)
 }
 
 /// The curves over the load, at the frequency in view.
-pub(in crate::app) fn load(view: &View) -> Option<LoadQuestion> {
-    LoadQuestion::about(view.scenario.clone().essential(), None).ok()
+pub(in crate::app) fn load(view: &View) -> (Scenario, Load) {
+    (view.scenario.forgetting(&[Forgotten::Duration]), Load::default())
 }
 
 /// The ceramics on the device in view. What they replace plays no role and must not make another question.
-pub(in crate::app) fn materials(view: &View) -> Table {
-    let mut scenario = view.scenario.clone();
-    scenario.parameters.alpha = 0.0;
-    let mut base = scenario.base();
-    (base.ceramic, base.loss_tangent, base.viscosity) = (None, 0.0, 0.0);
-    scenario.device = Some(base);
-    let scenario = scenario.essential();
+pub(in crate::app) fn materials(view: &View) -> Table<Fitted> {
+    let scenario = view.scenario.forgetting(&[Forgotten::Ceramic, Forgotten::Duration]);
     let mode = view.design.mode.clamp(1, view.scenario.model.modes);
-    Table::materials(&scenario, mode, view.design.resonance, TongueWindow::default())
+    Materials { mode, resonance: view.design.resonance, ..Materials::default() }.table(&scenario)
 }
 
 /// The quantity in view over modes and force laws.
-pub(in crate::app) fn trust(view: &View) -> Table {
-    // The model in view plays no role: every entry has its own.
-    let mut scenario = view.scenario.clone().essential();
-    let ModelChoice { modes, force, .. } = ModelChoice::default();
-    scenario.model.force = force;
-    if scenario.initial.is_none() {
-        scenario.model.modes = modes;
-    }
-    Table::trust(&scenario, view.design.quantity)
+pub(in crate::app) fn trust(view: &View) -> Table<Entry> {
+    // Every entry has its own model.
+    let scenario = view.scenario.forgetting(&[Forgotten::Model, Forgotten::Duration]);
+    Trust { quantity: view.design.quantity }.table(&scenario)
 }
 
 /// The best frequency of a few loads.
-pub(in crate::app) fn best_frequencies(view: &View, session: &Session, loads: &LoadStudy) -> Table {
+pub(in crate::app) fn best_frequencies(view: &View, session: &Session, loads: &LoadStudy) -> Table<BestAt> {
     let window = window(view, session);
-    let scenario = Scenario { initial: None, ..view.scenario.clone() };
-    let mut scenario = at_the_beginning(view, scenario, window);
-    scenario.parameters.kappa = Parameter::Kappa.get(&Default::default());
-    let scenario = scenario.essential();
+    let kappa = Parameter::Kappa.get(&Default::default());
+    let scenario = at_the_beginning(view, window).forgetting(&[Forgotten::Number(Parameter::Kappa, kappa)]);
     let (shaking, limits) = (shaking(view), bench::limits(view));
-    let work = |resistance: &f64| {
+    let piece = |resistance: &f64| {
         let (scenario, resistance) = (scenario.clone(), *resistance);
-        Work::Design(DesignWork::BestFrequency { scenario, resistance, window, shaking, limits })
+        BestAt { scenario, resistance, window, shaking, limits }
     };
-    Table::new(loads.resistances().iter().step_by(EVERY_LOAD).map(work).collect())
+    Table::new(loads.resistances().iter().step_by(EVERY_LOAD).map(piece).collect())
 }
 
 /// The range of a side of the map (in SI units): as chosen, or about a round value near the present one.
@@ -183,7 +173,8 @@ pub(in crate::app) fn map(view: &View, session: &Session) -> FindQuestion {
         scenario = anywhere;
     }
     let objective = objective(view, session);
-    FindQuestion { scenario: scenario.essential(), variables, objective, limits: bench::chosen_limits(view) }
+    let scenario = scenario.forgetting(&[Forgotten::Duration]);
+    FindQuestion { scenario, variables, objective, limits: bench::chosen_limits(view) }
 }
 
 /// The search in view, from the device in view.

@@ -3,6 +3,7 @@
 
 use std::cell::RefCell;
 use std::rc::{Rc, Weak};
+use std::sync::Arc;
 
 use js_sys::Uint8Array;
 use nanoserde::{DeBin, SerBin};
@@ -11,7 +12,8 @@ use wasm_bindgen::{JsCast as _, JsValue};
 use web_sys::{MessageEvent, Worker};
 
 use crate::app::crew::{Crew, Workers};
-use crate::jobs::work::{Finding, Work};
+use crate::questions::list;
+use crate::scheduler::{Finding, Work};
 
 /// Fewest and most workers.
 const COUNTS: (usize, usize) = (2, 8);
@@ -20,13 +22,15 @@ const COUNTS: (usize, usize) = (2, 8);
 #[derive(SerBin, DeBin)]
 struct Order {
     number: u64,
-    work: Work,
+    /// Name of the piece, and the piece.
+    name: String,
+    piece: Vec<u8>,
 }
 
 #[derive(SerBin, DeBin)]
 struct Report {
     number: u64,
-    finding: Option<Finding>,
+    finding: Option<Vec<u8>>,
     /// Why there is no finding.
     error: String,
 }
@@ -35,7 +39,7 @@ struct Report {
 #[wasm_bindgen]
 pub fn carry_out(order: &[u8]) -> Vec<u8> {
     let (number, finding) = match Order::deserialize_bin(order) {
-        Ok(Order { number, work }) => (number, work.carry_out()),
+        Ok(Order { number, name, piece }) => (number, list::carry_out(&name, &piece)),
         Err(error) => (0, Err(error.to_string())),
     };
     let (finding, error) = match finding {
@@ -92,7 +96,8 @@ impl WebWorkers {
             let message =
                 event.data().dyn_into::<Uint8Array>().map(|bytes| bytes.to_vec()).unwrap_or_default();
             if let Ok(report) = Report::deserialize_bin(&message) {
-                crew.borrow_mut().returned(number, report.number, report.finding.ok_or(report.error));
+                let finding = report.finding.map(Finding::Message).ok_or(report.error);
+                crew.borrow_mut().returned(number, report.number, finding);
             }
             taken(&crew);
         });
@@ -117,8 +122,8 @@ impl Workers for WebWorkers {
         self.hands.len()
     }
 
-    fn give(&mut self, worker: usize, number: u64, work: &Work) {
-        let order = Order { number, work: work.clone() };
+    fn give(&mut self, worker: usize, number: u64, work: Arc<dyn Work>) {
+        let order = Order { number, name: work.name().to_owned(), piece: work.message() };
         let message = Uint8Array::from(order.serialize_bin().as_slice());
         if let Some(Some(hand)) = self.hands.get(worker) {
             // A worker that cannot be reached is found overdue and replaced.

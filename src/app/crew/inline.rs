@@ -1,16 +1,18 @@
 //! Workers that are the caller's own thread: for tests, and where a browser has no workers.
 
+use std::sync::Arc;
+
 use super::Workers;
 use crate::app::clock::milliseconds;
-use crate::jobs::work::{Finding, Work};
+use crate::scheduler::{Finding, Work};
 
 /// Time a frame may spend on pieces.
 const BUDGET_MS: f64 = 6.0;
 
 /// One worker that works when it is attended to.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct Inline {
-    due: Option<(u64, Work)>,
+    due: Option<(u64, Arc<dyn Work>)>,
     /// When the present frame's share began.
     since: Option<f64>,
 }
@@ -20,8 +22,8 @@ impl Workers for Inline {
         1
     }
 
-    fn give(&mut self, _worker: usize, number: u64, work: &Work) {
-        self.due = Some((number, work.clone()));
+    fn give(&mut self, _worker: usize, number: u64, work: Arc<dyn Work>) {
+        self.due = Some((number, work));
     }
 
     fn replace(&mut self, _worker: usize) {

@@ -5,15 +5,17 @@
 
 mod bench;
 mod inline;
-mod lane;
 mod studies;
 
 pub use inline::Inline;
-pub(super) use studies::{Response, Studies};
+pub(super) use studies::{Followed, Studies};
+
+use std::sync::Arc;
 
 use super::clock::milliseconds;
-use crate::jobs::foreman::Foreman;
-use crate::jobs::work::{Finding, Work};
+use crate::questions::answers::Answers;
+use crate::scheduler::foreman::Foreman;
+use crate::scheduler::{Finding, Work};
 
 /// A worker may go on with a piece that nobody waits for any more for this long; then it is replaced.
 const OBSOLETE_MS: f64 = 2000.0;
@@ -27,7 +29,7 @@ pub trait Workers {
     fn count(&self) -> usize;
 
     /// Begins a piece; what it finds is brought to [`Crew::returned`] under the same number.
-    fn give(&mut self, worker: usize, number: u64, work: &Work);
+    fn give(&mut self, worker: usize, number: u64, work: Arc<dyn Work>);
 
     /// Stops a worker whatever it does, and puts a new one in its place.
     fn replace(&mut self, worker: usize);
@@ -68,24 +70,25 @@ impl Crew {
     pub fn hand_out(&mut self) {
         for worker in 0..self.workers.count() {
             let in_background = !self.restrained || self.foreman.busy_count() == 0;
-            let mut lanes = self.studies.lanes();
-            let lanes = if in_background { &mut lanes[..] } else { &mut lanes[..Studies::URGENT] };
-            let Some((number, work)) = self.foreman.assign(worker, lanes, Studies::URGENT) else { continue };
-            let longest = if matches!(work, Work::Answer { .. }) { LONGEST_ANSWER_MS } else { LONGEST_MS };
+            let urgent = self.studies.lanes.urgent();
+            let mut lanes = self.studies.lanes.traffic();
+            let lanes = if in_background { &mut lanes[..] } else { &mut lanes[..urgent] };
+            let Some((number, work)) = self.foreman.assign(worker, lanes, urgent) else { continue };
+            let longest = if work.is_long() { LONGEST_ANSWER_MS } else { LONGEST_MS };
             self.begun[worker] = (milliseconds(), longest);
-            self.workers.give(worker, number, &work);
+            self.workers.give(worker, number, work);
         }
     }
 
     /// Takes in what a worker found, and gives it something new.
     pub fn returned(&mut self, worker: usize, number: u64, finding: Result<Finding, String>) {
-        self.foreman.returned(worker, number, finding, &mut self.studies.lanes());
+        self.foreman.returned(worker, number, finding, &mut self.studies.lanes.traffic());
         self.hand_out();
     }
 
     /// A worker died: another takes its place and its piece is done again.
     pub fn died(&mut self, worker: usize) {
-        self.foreman.died(worker, &mut self.studies.lanes());
+        self.foreman.died(worker, &mut self.studies.lanes.traffic());
         self.workers.replace(worker);
         self.hand_out();
     }
@@ -95,7 +98,7 @@ impl Crew {
         self.restrained = hand_moves;
         let now = milliseconds();
         let overdue: Vec<usize> = {
-            let lanes = self.studies.lanes();
+            let lanes = self.studies.lanes.traffic();
             let obsolete = self.foreman.obsolete(&lanes);
             let obsolete = obsolete.filter(|worker| now - self.begun[*worker].0 > OBSOLETE_MS);
             let endless = (0..self.workers.count()).filter(|worker| {
@@ -120,18 +123,22 @@ impl Crew {
 
     /// Queues a request in JSON; its number comes back with the answer.
     pub fn ask(&mut self, request: String) -> Option<usize> {
-        let number = self.studies.answers.study_mut()?.ask(request);
+        let number = self.answers()?.ask(request);
         self.hand_out();
         Some(number)
     }
 
     /// The answers to requests that have come in since the last call.
     pub fn take_answers(&mut self) -> Vec<(usize, Result<String, String>)> {
-        self.studies.answers.study_mut().map(|answers| answers.take_answers()).unwrap_or_default()
+        self.answers().map(Answers::take_answers).unwrap_or_default()
+    }
+
+    fn answers(&mut self) -> Option<&mut Answers> {
+        self.studies.lanes.lane_mut()?.study_mut()
     }
 
     /// Whether anything is being computed or waits to be.
-    pub fn is_busy(&mut self) -> bool {
-        self.studies.lanes().iter().any(|lane| lane.progress().is_some())
+    pub fn is_busy(&self) -> bool {
+        self.studies.lanes.progress().next().is_some()
     }
 }

@@ -1,64 +1,45 @@
 //! What is being studied for the page: one lane a topic, the newest question of each.
 
-use super::bench::BenchStudies;
-use super::lane::{offer, open};
 use crate::app::embed::{self, Embed};
 use crate::app::map::{self, Structure};
 use crate::app::questions;
 use crate::app::session::Session;
 use crate::app::view::design::{DesignView, Page};
-use crate::app::view::{Layer, Panel, Tab, View};
+use crate::app::view::{Panel, Tab, View};
 use crate::dynamics::tongue::Window;
-use crate::jobs::foreman::{Lane, Traffic};
-use crate::jobs::inspection::Inspection;
-use crate::jobs::response::ResponseCurve;
-use crate::jobs::study::answers::Answers;
-use crate::jobs::study::basin::Basin;
-use crate::jobs::study::curves::CurvesStudy;
-use crate::jobs::study::motion_chart::MotionChart;
-use crate::jobs::study::multiplier_chart::MultiplierChart;
-use crate::jobs::study::single::Single;
-use crate::jobs::study::sweep::{Direction, SweepStudy};
-use crate::jobs::study::tongues::TongueStudy;
-use crate::jobs::work::{Finding, Work};
+use crate::questions::basin::BasinStudy;
+use crate::questions::chart::Quantity;
+use crate::questions::curves::CurvesStudy;
+use crate::questions::design::linear::LinearBest;
+use crate::questions::inspection::{Inspect, Inspection};
+use crate::questions::list;
+use crate::questions::motion_chart::MotionChart;
+use crate::questions::multiplier_chart::MultiplierChart;
+use crate::questions::response::{Response, ResponseCurve};
+use crate::questions::sweep::{Direction, SweepStudy};
+use crate::questions::tongues::TongueStudy;
 use crate::scenario::Scenario;
+use crate::scheduler::{Lanes, Piece, Single};
 
 /// Half the width of the window in which exact tongues are traced: a little more than a map shows.
 const TONGUE_SPAN: f64 = 0.8;
 /// Upper ends of that window: the lowest one above what the map shows is taken.
 const TONGUE_LIMITS: [f64; 2] = [0.04, 0.2];
 
-/// How many lanes there are.
-const LANES: usize = 17;
-
-/// The lanes.
+/// The lanes, and what the Design tab knows besides.
 pub(in crate::app) struct Studies {
-    /// Requests from outside.
-    pub answers: Lane<Answers>,
-    /// Verdict on the scenario in view.
-    inspection: Lane<Single>,
-    /// Exact tongues of the device in view.
-    tongues: Lane<TongueStudy>,
-    /// Response curves of the sweep in view.
-    response: Lane<Single>,
-    /// Sweep up and down.
-    pub sweep: Lane<SweepStudy>,
-    /// Bifurcation curves in the plane in view.
-    pub curves: Lane<CurvesStudy>,
-    /// Chart of the forced motion's stability.
-    pub multipliers: Lane<MultiplierChart>,
-    /// Chart of the motions reached.
-    pub motions: Lane<MotionChart>,
-    /// Basins of attraction.
-    pub basin: Lane<Basin>,
-    /// The design bench.
-    pub bench: BenchStudies,
+    /// One a topic.
+    pub lanes: Lanes,
+    /// Whether the search for a design was ended.
+    pub(super) ended: bool,
+    /// The linear device at its best, and for which scenario.
+    pub(super) reference: Option<(Scenario, Option<LinearBest>)>,
 }
 
 /// Response curves to draw.
-pub(in crate::app) struct Response<'a> {
+pub(in crate::app) struct Followed<'a> {
     /// The question that they answer.
-    pub question: &'a Work,
+    pub question: &'a Response,
     /// The curves, or why there are none.
     pub curves: Result<&'a [ResponseCurve], &'a str>,
     /// Whether it is the newest question.
@@ -67,73 +48,21 @@ pub(in crate::app) struct Response<'a> {
 
 impl Default for Studies {
     fn default() -> Self {
-        let mut answers = Lane::default();
-        answers.ask(Answers::default());
-        Self {
-            answers,
-            inspection: Lane::default(),
-            tongues: Lane::default(),
-            response: Lane::default(),
-            sweep: Lane::default(),
-            curves: Lane::default(),
-            multipliers: Lane::default(),
-            motions: Lane::default(),
-            basin: Lane::default(),
-            bench: BenchStudies::default(),
-        }
+        Self { lanes: list::lanes(), ended: false, reference: None }
     }
 }
 
 impl Studies {
-    /// How many of the lanes are urgent: they are served also while the user's hand moves.
-    pub(super) const URGENT: usize = 4;
-
-    /// All lanes with their names, most urgent first.
-    fn named_lanes(&mut self) -> [(&'static str, &mut dyn Traffic); LANES] {
-        let bench = &mut self.bench;
-        [
-            ("answers", &mut self.answers),
-            ("operating", &mut bench.operating),
-            ("tongues", &mut self.tongues),
-            ("verdict", &mut self.inspection),
-            ("multipliers", &mut self.multipliers),
-            ("response", &mut self.response),
-            ("sweep", &mut self.sweep),
-            ("curves", &mut self.curves),
-            ("motions", &mut self.motions),
-            ("basin", &mut self.basin),
-            ("harvest", &mut bench.harvest),
-            ("load", &mut bench.load),
-            ("best frequencies", &mut bench.best),
-            ("materials", &mut bench.materials),
-            ("trust", &mut bench.trust),
-            ("find", &mut bench.find),
-            ("map", &mut bench.map),
-        ]
-    }
-
-    /// All lanes, most urgent first.
-    pub(super) fn lanes(&mut self) -> [&mut dyn Traffic; LANES] {
-        self.named_lanes().map(|(_, lane)| lane)
-    }
-
     /// Whether anything is under way or waits to be, besides requests from outside.
     pub(in crate::app) fn is_busy(&self) -> bool {
-        open(&self.tongues)
-            || open(&self.inspection)
-            || open(&self.multipliers)
-            || open(&self.response)
-            || open(&self.sweep)
-            || open(&self.curves)
-            || open(&self.motions)
-            || open(&self.basin)
-            || self.bench.is_busy()
+        self.lanes.progress().any(|(name, _)| name != list::ANSWERS)
     }
 
-    /// Names and done parts, 0 to 1, of what is under way.
-    pub(in crate::app) fn progress(&mut self) -> Vec<(&'static str, f64)> {
-        let lanes = self.named_lanes();
-        lanes.into_iter().filter_map(|(name, lane)| Some((name, lane.progress()?))).collect()
+    /// Asks for one piece of work, unless it was asked for last.
+    pub(super) fn offer<P: Piece + Clone + PartialEq>(&mut self, piece: P) {
+        if self.lanes.wanted().is_none_or(|wanted: &Single<P>| *wanted.piece() != piece) {
+            self.lanes.offer(Single::new(piece));
+        }
     }
 
     /// Asks for what the view shows.
@@ -142,13 +71,13 @@ impl Studies {
         let designs = embed.is_none() && view.tab == Tab::Design;
         let wanted = |panel| embed.map_or(embed::tab(panel) == view.tab, |embed| embed.shows(panel));
         if designs {
-            self.bench.follow(view, session);
+            self.follow_bench(view, session);
         }
         // The goals of a lesson are checked by the verdict, on whatever tab.
         if designs && view.lesson.is_none() {
             return;
         }
-        offer(&mut self.inspection, Work::Inspect { scenario: view.scenario.clone() });
+        self.offer(Inspect { scenario: view.scenario.clone() });
         if designs {
             return;
         }
@@ -162,23 +91,26 @@ impl Studies {
         }
         if wanted(Panel::Curves)
             && let Some(question) = questions::curves(view, session)
-            && self.curves.study().is_none_or(|curves| *curves.question() != question)
+            && self.lanes.study().is_none_or(|study: &CurvesStudy| *study.question() != question)
         {
-            self.curves.ask(CurvesStudy::new(question));
+            self.lanes.ask(CurvesStudy::new(question));
         }
-        if wanted(Panel::Basins)
-            && let Ok(question) = questions::basin(view)
-            && self.basin.study().is_none_or(|basin| *basin.question() != question)
-            && let Ok(basin) = Basin::new(question)
-        {
-            self.basin.ask(basin);
+        if wanted(Panel::Basins) {
+            let (scenario, basin) = questions::basin(view);
+            let same = |study: &BasinStudy| *study.scenario() == scenario && *study.question() == basin;
+            if !self.lanes.study().is_some_and(same)
+                && let Ok(study) = BasinStudy::new(scenario, basin)
+            {
+                self.lanes.ask(study);
+            }
         }
         if wanted(Panel::OrbitDiagram) || wanted(Panel::Response) {
-            let question = questions::sweep(view, session);
-            if self.sweep.study().is_none_or(|sweep| *sweep.question() != question) {
-                self.sweep.ask(SweepStudy::new(question, &[Direction::Up, Direction::Down]));
+            let (scenario, sweep) = questions::sweep(view, session);
+            self.offer(sweep.response(&scenario));
+            let same = |study: &SweepStudy| *study.scenario() == scenario && *study.question() == sweep;
+            if !self.lanes.study().is_some_and(same) {
+                self.lanes.ask(SweepStudy::new(scenario, sweep, &[Direction::Up, Direction::Down]));
             }
-            offer(&mut self.response, questions::response(view, session));
         }
         if embed.is_some() {
             for (panel, page) in [
@@ -188,7 +120,7 @@ impl Studies {
             ] {
                 if wanted(panel) {
                     let design = DesignView { page, ..view.design.clone() };
-                    self.bench.follow(&View { design, ..view.clone() }, session);
+                    self.follow_bench(&View { design, ..view.clone() }, session);
                 }
             }
         }
@@ -196,15 +128,16 @@ impl Studies {
 
     /// Asks for the chart over frequency and amplitude.
     fn ask_chart(&mut self, view: &View, boundaries: &map::Boundaries) {
-        if view.layer == Layer::Multiplier {
-            let question = questions::chart(view, boundaries);
-            if self.multipliers.study().is_none_or(|chart| *chart.question() != question) {
-                self.multipliers.ask(MultiplierChart::new(question));
+        let (scenario, chart) = questions::chart(view, boundaries);
+        if chart.quantity == Quantity::Multiplier {
+            let same = |study: &MultiplierChart| study.question() == (&scenario, chart.omega, chart.beta);
+            if !self.lanes.study().is_some_and(same) {
+                self.lanes.ask(MultiplierChart::new(scenario, chart.omega, chart.beta));
             }
         } else {
-            let question = questions::motions(view, boundaries);
-            if self.motions.study().is_none_or(|chart| *chart.question() != question) {
-                self.motions.ask(MotionChart::new(question));
+            let plane = chart.plane(scenario);
+            if self.lanes.study().is_none_or(|study: &MotionChart| *study.question() != plane) {
+                self.lanes.ask(MotionChart::new(plane));
             }
         }
     }
@@ -216,34 +149,29 @@ impl Studies {
         let structure = Structure::of(scenario);
         let same =
             |study: &TongueStudy| study.window() == window && Structure::of(study.scenario()) == structure;
-        if !self.tongues.wanted().is_some_and(same) {
-            self.tongues.offer(TongueStudy::new(scenario.clone(), window));
+        if !self.lanes.wanted().is_some_and(same) {
+            self.lanes.offer(TongueStudy::new(scenario.clone(), window));
         }
     }
 
     /// The newest exact tongues, and whether they belong to `structure`.
     pub(in crate::app) fn tongues(&self, structure: &Structure) -> Option<(&TongueStudy, bool)> {
-        let study = self.tongues.finished().or(self.tongues.study())?;
+        let study: &TongueStudy = self.lanes.finished().or_else(|| self.lanes.study())?;
         Some((study, Structure::of(study.scenario()) == *structure))
     }
 
     /// The newest response curves.
-    pub(in crate::app) fn response(&self) -> Option<Response<'_>> {
-        let study = self.response.finished()?;
-        let curves = match study.found()? {
-            Ok(Finding::Response(curves)) => Ok(curves.as_slice()),
-            Ok(_) => return None,
-            Err(message) => Err(message.as_str()),
-        };
-        let newest = self.response.wanted().is_some_and(|wanted| wanted.work() == study.work());
-        Some(Response { question: study.work(), curves, newest })
+    pub(in crate::app) fn response(&self) -> Option<Followed<'_>> {
+        let study: &Single<Response> = self.lanes.finished()?;
+        let curves = study.found()?.map(Vec::as_slice);
+        let wanted: Option<&Single<Response>> = self.lanes.wanted();
+        let newest = wanted.is_some_and(|wanted| wanted.piece() == study.piece());
+        Some(Followed { question: study.piece(), curves, newest })
     }
 
     /// The newest verdict and its evidence, and whether it belongs to `scenario`.
     pub(in crate::app) fn inspection(&self, scenario: &Scenario) -> Option<(&Inspection, bool)> {
-        let study = self.inspection.finished()?;
-        let Some(Ok(Finding::Inspection(found))) = study.found() else { return None };
-        let current = matches!(study.work(), Work::Inspect { scenario: of } if of == scenario);
-        Some((found, current))
+        let study: &Single<Inspect> = self.lanes.finished()?;
+        Some((study.found()?.ok()?, study.piece().scenario == *scenario))
     }
 }

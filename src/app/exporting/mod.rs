@@ -80,7 +80,7 @@ impl App {
                 ),
             ));
         }
-        for (name, part) in self.crew.borrow_mut().studies.progress() {
+        for (name, part) in self.crew.borrow().studies.lanes.progress() {
             notes.push(("still being computed", format!("{name}, {:.0} % done", 100.0 * part)));
         }
         Provenance {

@@ -15,10 +15,11 @@ use crate::app::{App, bench};
 use crate::dynamics::Outcome;
 use crate::export::Figure;
 use crate::export::report::{Report, Words, html};
-use crate::jobs::study::Study as _;
 use crate::model::limits::Standing;
 use crate::model::{Demand, Dimension, ForceLaw};
+use crate::questions::harvest::HarvestStudy;
 use crate::scenario::Scenario;
+use crate::scheduler::Study as _;
 
 /// Height over width of a plot in a report.
 const REPORT_ASPECT: f64 = 0.42;
@@ -51,9 +52,12 @@ impl App {
             }
         }
         plots.iter_mut().flatten().for_each(|figure| figure.aspect = REPORT_ASPECT);
-        let harvest = crew.studies.bench.harvest.study();
-        let question = bench::questions::harvest(&self.view, &self.session);
-        if harvest.is_some_and(|study| study.finished() && *study.question() == question) {
+        let harvest = crew.studies.lanes.study::<HarvestStudy>();
+        let (scenario, question, _) = bench::questions::harvest(&self.view, &self.session);
+        let same = |study: &&HarvestStudy| {
+            study.finished() && *study.scenario() == scenario && *study.question() == question
+        };
+        if harvest.as_ref().is_some_and(same) {
             let mut view = View { tab: Tab::Design, enlarged: Some(Panel::Harvest), ..self.view.clone() };
             view.design.page = Page::Harvest;
             let mut figures = self.figures(&view, None);

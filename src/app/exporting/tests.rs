@@ -5,7 +5,7 @@ use crate::app::map::{Boundaries, Structure};
 use crate::app::rehearsal;
 use crate::app::session::Session;
 use crate::app::view;
-use crate::jobs::solve;
+use crate::questions::solve;
 
 /// The page of a link, everything computed, and drawn once.
 fn page(link: &str, size: [f32; 2]) -> (App, Egui) {

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::app::map::{Boundaries, Structure};
 use crate::app::view::View;
 use crate::dynamics::Verdict;
-use crate::jobs::inspection;
+use crate::questions::inspection;
 
 /// A condition on one fact. What is not known fulfils none.
 #[derive(Debug, Clone, PartialEq)]

@@ -81,7 +81,7 @@ impl<'de> Deserialize<'de> for LessonId {
         let name = String::deserialize(deserializer)?;
         Self::named(&name).ok_or_else(|| {
             let names: Vec<&str> = Self::all().map(Self::name).collect();
-            de::Error::custom(format!("unknown lesson {name}, expected one of {}", names.join(", ")))
+            de::Error::custom(format!("`{name}` is not available: allowed are {}", names.join(", ")))
         })
     }
 }

@@ -8,9 +8,9 @@ use crate::app::view::View;
 use crate::app::view::design::{FREQUENCIES, POWERS};
 use crate::app::view::live::{KICKS, SPEEDS, WINDOWS};
 use crate::dynamics::sweep::Dwell;
-use crate::jobs::study::find::GENERATIONS;
-use crate::jobs::study::sweep::COUNTS;
 use crate::model::{Dimension, ForceLaw, MAX_MODES, Parameter};
+use crate::questions::find::GENERATIONS;
+use crate::questions::sweep::COUNTS;
 use crate::scenario::END_TIME;
 
 /// Where the device's dimensions stand.
@@ -166,10 +166,8 @@ impl Field {
     /// Whether a view, given as JSON, takes this value; otherwise what is allowed.
     pub(super) fn try_out(&self, mut view: Value, value: &Value) -> Result<(), String> {
         self.set(&mut view, value);
-        View::from_value(view).map(|_| ()).map_err(|message| match message.split_once("expected ") {
-            Some((_, allowed)) => {
-                format!("allowed are {}", allowed.trim_start_matches("one of ").replace('`', ""))
-            }
+        View::from_value(view).map(|_| ()).map_err(|message| match message.split_once(": allowed are ") {
+            Some((_, allowed)) => format!("allowed are {}", allowed.replace('`', "")),
             None => message,
         })
     }

@@ -13,9 +13,9 @@ use crate::app::widgets::number::{round_significant, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{attractor_row, draw_raster, raster, recorder};
 use crate::dynamics::motion::Motion;
-use crate::jobs::study::Study as _;
-use crate::jobs::study::basin::{Attractor, Basin};
+use crate::questions::basin::{Attractor, BasinStudy};
 use crate::scenario::Scenario;
+use crate::scheduler::Study as _;
 
 /// Attractors that are listed.
 const LISTED: usize = 6;
@@ -25,12 +25,12 @@ const LIST_WIDTH: f32 = 190.0;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.basin.study() {
+    let hint = match context.studies.lanes.study::<BasinStudy>() {
         Some(basin) if !basin.finished() => computing(basin.progress()),
         _ => tr("click to start there").to_owned(),
     };
     context.plot_card(ui, Panel::Basins, tr("Basins of attraction"), &hint, |context, ui| {
-        let Some(basin) = context.studies.basin.study() else { return };
+        let Some(basin) = context.studies.lanes.study::<BasinStudy>() else { return };
         let attractors = basin.attractors();
         if ui.available_width() < BESIDE {
             list(context, ui, &attractors);
@@ -97,26 +97,27 @@ fn list(context: &mut Context<'_>, ui: &mut Ui, attractors: &[Attractor]) {
     }
 }
 
-fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Attractor]) {
+fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &BasinStudy, attractors: &[Attractor]) {
     let tokens = theme::tokens(ui);
-    let question = basin.question();
-    let lane = context.studies.basin.generation();
+    let [(i, x_range), (j, y_range)] = basin.sides();
+    let size = basin.chart().question().size;
+    let lane = context.studies.lanes.generation::<BasinStudy>();
     let revision = basin.chart().version() ^ (lane << 32) ^ tokens.number() << 62;
     let colours = colours_of(attractors, tokens);
-    let picture = raster(ui, Id::unique("basins"), revision, question.size, &|column, row| {
+    let picture = raster(ui, Id::unique("basins"), revision, size, &|column, row| {
         let cell = basin.shown(column, row)?;
         Some(cell.and_then(|index| colours.get(index)).copied().unwrap_or(tokens.inset))
     });
     let (x, y) = (Axis::new(tr("start"), "q₁"), Axis::new("", "dq₁/dt"));
     let start = start(&context.view.scenario);
-    let here = [start[question.x.0], start[question.y.0]];
+    let here = [start[i], start[j]];
     let shown = plot_style::plot(ui, "basins", &x, &y)
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)
         .allow_double_click_reset(false)
         .show(ui, |plot| {
-            let (x, y) = (question.x.1, question.y.1);
+            let (x, y) = (x_range, y_range);
             plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
             if let Some(picture) = &picture {
                 let opacity = if basin.chart().version() == 0 { 0.4 } else { 1.0 };
@@ -125,13 +126,13 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
                     basin.chart().cell(column, row)?;
                     attractors.get(basin.shown(column, row)??).map(name)
                 };
-                recorder::cells(plot, tr("motion reached"), question.size, [x, y], &value);
+                recorder::cells(plot, tr("motion reached"), size, [x, y], &value);
             }
             let places: Vec<(String, PlotPoint)> = attractors
                 .iter()
                 .filter(|attractor| matches!(attractor.cell.motion, Motion::Periodic { .. }))
                 .map(|attractor| {
-                    let place = PlotPoint::new(attractor.start[question.x.0], attractor.start[question.y.0]);
+                    let place = PlotPoint::new(attractor.start[i], attractor.start[j]);
                     (motion_in_words(attractor.cell.motion), place)
                 })
                 .collect();
@@ -141,7 +142,6 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &Basin, attractors: &[Att
         });
     let drag = plot_style::operating_point(ui, &shown, tr("Start"), here);
     if let Some([q, rate]) = drag.moved {
-        let (i, j) = (question.x.0, question.y.0);
         context.edit(|scenario| {
             let mut state = start.clone();
             (state[i], state[j]) = (round_significant(q, 4), round_significant(rate, 4));

@@ -20,16 +20,17 @@ use crate::app::widgets::{
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
 use crate::dynamics::motion::{Cell, Motion};
-use crate::jobs::study::Study as _;
-use crate::jobs::study::motion_chart::MotionChart;
+use crate::questions::motion_chart::MotionChart;
+use crate::questions::multiplier_chart::MultiplierChart;
+use crate::scheduler::Study as _;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let progress = match context.view.layer {
         Layer::Multiplier => {
-            context.studies.multipliers.study().map(|chart| (chart.progress(), chart.finished()))
+            context.studies.lanes.study::<MultiplierChart>().map(|chart| (chart.progress(), chart.finished()))
         }
-        _ => context.studies.motions.study().map(|chart| (chart.progress(), chart.finished())),
+        _ => context.studies.lanes.study::<MotionChart>().map(|chart| (chart.progress(), chart.finished())),
     };
     let hint = match progress {
         Some((done, false)) => computing(done),
@@ -63,7 +64,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         Layer::Multiplier => multiplier_legend(ui, tokens),
         Layer::Motion => motion_legend(ui, tokens),
         layer @ (Layer::Voltage | Layer::Power) => {
-            let top = context.studies.motions.study().map_or(0.0, |chart| highest(chart, layer));
+            let top = context.studies.lanes.study::<MotionChart>().map_or(0.0, |chart| highest(chart, layer));
             let (top, unit) = if layer == Layer::Voltage {
                 (top, tr("V rms"))
             } else {
@@ -138,20 +139,16 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
         version ^ (generation << 32) ^ ((layer as u64) << 60) ^ (tokens.number() << 62)
     };
     if layer == Layer::Multiplier {
-        let chart = context.studies.multipliers.study()?;
-        let question = chart.question();
-        let revision = revision(chart.version(), context.studies.multipliers.generation());
+        let chart = context.studies.lanes.study::<MultiplierChart>()?;
+        let (_, omega, beta) = chart.question();
+        let revision = revision(chart.version(), context.studies.lanes.generation::<MultiplierChart>());
         let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
-        let texture = raster(ui, Id::unique("multiplier chart"), revision, question.size, &paint)?;
-        let known = chart.version() > 0;
-        return Some(Picture {
-            cells: Cells::Plain(texture),
-            omega: question.omega,
-            beta: question.beta,
-            known,
-        });
+        let texture =
+            raster(ui, Id::unique("multiplier chart"), revision, (omega.count, beta.count), &paint)?;
+        let (omega, beta) = (omega.range(), beta.range());
+        return Some(Picture { cells: Cells::Plain(texture), omega, beta, known: chart.version() > 0 });
     }
-    let chart = context.studies.motions.study()?;
+    let chart = context.studies.lanes.study::<MotionChart>()?;
     let question = chart.question();
     let top = highest(chart, layer).max(f64::MIN_POSITIVE);
     let colour = |cell: Cell| -> Color32 {
@@ -172,7 +169,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
         Some((cell.map_or(tokens.inset, colour), cell.as_ref().is_some_and(unsafe_in)))
     };
     let limits = safety.as_ref().map_or(0, Safety::fingerprint);
-    let revision = revision(chart.version(), context.studies.motions.generation()) ^ limits;
+    let revision = revision(chart.version(), context.studies.lanes.generation::<MotionChart>()) ^ limits;
     let cells = Cells::Hatched(hatched(ui, Id::unique("motion chart"), revision, question.size, &paint)?);
     Some(Picture { cells, omega: question.x.1, beta: question.y.1, known: chart.version() > 0 })
 }
@@ -182,23 +179,19 @@ fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f6
     let layer = context.view.layer;
     if layer == Layer::Multiplier {
         // Before that, columns that are not known look like their neighbours.
-        let found = context.studies.multipliers.study().filter(|chart| chart.finished());
+        let found = context.studies.lanes.study::<MultiplierChart>().filter(|chart| chart.finished());
         let Some(chart) = found else { return };
         let value = |column, row| {
             chart
                 .shown(column, row)
                 .map(|found| found.map_or_else(String::new, |(modulus, _)| number::exact(modulus)))
         };
-        recorder::cells(
-            plot,
-            tr("largest multiplier of the forced motion"),
-            chart.question().size,
-            ranges,
-            &value,
-        );
+        let (_, omega, beta) = chart.question();
+        let size = (omega.count, beta.count);
+        recorder::cells(plot, tr("largest multiplier of the forced motion"), size, ranges, &value);
         return;
     }
-    let Some(chart) = context.studies.motions.study() else { return };
+    let Some(chart) = context.studies.lanes.study::<MotionChart>() else { return };
     let factor = microwatts(&context.view.scenario);
     let value = |column, row| {
         let cell = chart.cell(column, row)??;

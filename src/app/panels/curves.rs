@@ -13,13 +13,13 @@ use crate::app::widgets::{Series, chips_after, legend};
 use crate::app::{colours, questions};
 use crate::dynamics::Instability;
 use crate::dynamics::curves::Criticality;
-use crate::jobs::study::Study as _;
-use crate::jobs::study::curves::PARAMETERS;
 use crate::model::Parameter;
+use crate::questions::curves::{CurvesStudy, PARAMETERS};
+use crate::scheduler::Study as _;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.curves.study() {
+    let hint = match context.studies.lanes.study::<CurvesStudy>() {
         Some(study) if !study.finished() => {
             fill("tracing, {count} so far", &[("count", &study.curves().len())])
         }
@@ -70,7 +70,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
         Axis::new(name, symbol)
     };
     let (x, y) = (titled(x_axis.parameter), titled(y_axis.parameter));
-    let study = context.studies.curves.study().filter(|study| study.question().plane == question.plane);
+    let study =
+        context.studies.lanes.study::<CurvesStudy>().filter(|study| study.question().plane == question.plane);
     let current = study.is_some_and(|study| *study.question() == question);
     let curves = study.map_or(&[][..], |study| study.curves());
     let stretches = curves.iter().flat_map(|curve| {

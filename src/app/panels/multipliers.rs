@@ -12,7 +12,7 @@ use crate::app::view::Panel;
 use crate::app::widgets::number::significant;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
-use crate::jobs::inspection::Multipliers;
+use crate::questions::inspection::Multipliers;
 
 /// Points of the circle.
 const CIRCLE: usize = 181;

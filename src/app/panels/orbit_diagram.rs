@@ -12,12 +12,12 @@ use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Motion;
 use crate::dynamics::sweep::SweepPoint;
-use crate::jobs::study::Study as _;
-use crate::jobs::study::sweep::{Direction, SweepStudy};
+use crate::questions::sweep::{Direction, SweepStudy};
+use crate::scheduler::Study as _;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.sweep.study() {
+    let hint = match context.studies.lanes.study::<SweepStudy>() {
         Some(sweep) if !sweep.finished() => computing(sweep.progress()),
         _ => tr("click to go there").to_owned(),
     };
@@ -25,7 +25,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
-    let Some(study) = context.studies.sweep.study() else { return };
+    let Some(study) = context.studies.lanes.study::<SweepStudy>() else { return };
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 14.0;
         legend::legend_entry(ui, Series::Up, tr("upwards"));
@@ -44,7 +44,7 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
     let open = both(|direction| strobe(study, direction, |point| !settled(point)));
     let (name, symbol) = sweep::title(study.question().parameter);
     let (x, y) = (Axis::new(name, symbol), Axis::new(tr("voltage at t = 2πk/ω"), "v").unit("V"));
-    let range = study.question().range;
+    let range = study.question().range();
     let colour = theme::tokens(ui).ruler;
     let value = study.question().parameter.get(&context.view.scenario.parameters);
     let response = plot_style::plot(ui, ("orbit diagram", study.question().parameter), &x, &y)
@@ -61,7 +61,7 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// What is carried over and thrown away, in a few words.
 fn said(study: &SweepStudy) -> String {
-    let dwell = study.question().dwell;
+    let dwell = study.question().dwell();
     let restarts = [Direction::Up, Direction::Down]
         .iter()
         .flat_map(|direction| study.points(*direction).iter().skip(1))
@@ -105,7 +105,7 @@ pub(super) fn go_where_clicked<R>(
 ) {
     let clicked = plot.response.clicked().then(|| plot.response.interact_pointer_pos()).flatten();
     let Some(at) = clicked else { return };
-    let (low, high) = study.question().range;
+    let (low, high) = study.question().range();
     let value = plot.transform.value_from_position(at).x.clamp(low, high);
     let parameter = study.question().parameter;
     context.edit(|scenario| {

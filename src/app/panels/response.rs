@@ -5,7 +5,7 @@ use egui_plot::{PlotPoint, VLine};
 
 use super::orbit_diagram::settled;
 use super::{Context, orbit_diagram, sweep};
-use crate::app::crew::Response;
+use crate::app::crew::Followed;
 use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::{Output, Panel};
@@ -13,16 +13,15 @@ use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Instability;
 use crate::dynamics::sweep::SweepPoint;
-use crate::jobs::response::{ResponseCurve, ResponsePoint};
-use crate::jobs::study::sweep::{Direction, SweepStudy};
-use crate::jobs::work::Work;
 use crate::model::ReducedSystem;
+use crate::questions::response::{ResponseCurve, ResponsePoint};
+use crate::questions::sweep::{Direction, SweepStudy};
 use crate::scenario::Scenario;
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let hint = match context.studies.response() {
-        Some(Response { newest: true, .. }) => tr("solid: stable, dashed: unstable"),
+        Some(Followed { newest: true, .. }) => tr("solid: stable, dashed: unstable"),
         _ => tr("following the branches"),
     };
     context.plot_card(ui, Panel::Response, tr("Response curves"), hint, curves);
@@ -69,7 +68,7 @@ pub(super) fn microwatts(scenario: &Scenario) -> f64 {
 }
 
 fn curves(context: &mut Context<'_>, ui: &mut Ui) {
-    let Some(study) = context.studies.sweep.study() else { return };
+    let Some(study) = context.studies.lanes.study::<SweepStudy>() else { return };
     let Some(shown) = context.shown() else { return };
     let measure = Measure::new(context.view.sweep.output, &shown.scenario, &shown.run.system);
     let mut entries = vec![
@@ -83,11 +82,10 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     }
     legend::legend(ui, &entries);
     let swept = study.question().parameter;
-    let matching = |work: &Work| matches!(work, Work::Response { parameter, .. } if *parameter == swept);
-    let found = context.studies.response().filter(|response| matching(response.question));
+    let found = context.studies.response().filter(|response| response.question.parameter == swept);
     let (branches, current): (&[ResponseCurve], bool) = match found {
-        Some(Response { curves: Ok(curves), newest, .. }) => (curves, newest),
-        Some(Response { curves: Err(message), newest: true, .. }) => {
+        Some(Followed { curves: Ok(curves), newest, .. }) => (curves, newest),
+        Some(Followed { curves: Err(message), newest: true, .. }) => {
             ui.label(egui::RichText::new(message).small().color(theme::tokens(ui).warning));
             (&[], true)
         }
@@ -100,7 +98,7 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     let open = orbit_diagram::both(|direction| reached(study, direction, &measure, |point| !settled(point)));
     let (name, symbol) = sweep::title(study.question().parameter);
     let (x, y) = (Axis::new(name, symbol), measure.axis());
-    let range = study.question().range;
+    let range = study.question().range();
     let colour = theme::tokens(ui).ruler;
     let value = study.question().parameter.get(&context.view.scenario.parameters);
     let id = ("response", study.question().parameter, context.view.sweep.output as u8);
@@ -170,7 +168,7 @@ fn marks(curve: &ResponseCurve, measure: &Measure) -> Vec<(String, [f64; 2])> {
         Instability::PeriodDoubling => "PD",
         Instability::NeimarkSacker => "NS",
     };
-    let place = |change: &crate::jobs::response::Change| {
+    let place = |change: &crate::questions::response::Change| {
         let y = measure.of(&change.point).first().copied().unwrap_or_default();
         (name(change.kind).to_owned(), [change.point.value, y])
     };

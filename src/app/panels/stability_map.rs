@@ -10,8 +10,8 @@ use crate::app::text::tr;
 use crate::app::view::{MapWindow, Panel};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
-use crate::jobs::study::tongues::Traced;
 use crate::model::Parameter;
+use crate::questions::tongues::Traced;
 use crate::theory::Resonance;
 
 /// Room that the legend needs to stand beside the choice.

@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::jobs::design::trust::Quantity;
-use crate::jobs::study::find::GENERATIONS;
 use crate::model::{Dimension, Limits, MAX_MODES, ModelError};
+use crate::questions::design::trust::Quantity;
+use crate::questions::find::GENERATIONS;
+use crate::scenario::counted;
 use crate::theory::Resonance;
 
 /// The parts of the Design tab.
@@ -185,8 +186,8 @@ impl DesignView {
             ModelError::check("design.least", least, POWERS, " W")?;
         }
         self.limits.validate()?;
-        count("design.mode", self.mode, (1, MAX_MODES))?;
-        count("design.search.generations", self.search.generations, GENERATIONS)?;
+        counted("design.mode", self.mode, (1, MAX_MODES))?;
+        counted("design.search.generations", self.search.generations, GENERATIONS)?;
         for side in self.search.sides.iter().chain(&self.search.third) {
             for end in side.range.iter().flat_map(|(from, to)| [from, to]) {
                 side.dimension.check(*end)?;
@@ -194,11 +195,4 @@ impl DesignView {
         }
         Ok(())
     }
-}
-
-fn count(field: &'static str, value: usize, (minimum, maximum): (usize, usize)) -> Result<(), ModelError> {
-    if (minimum..=maximum).contains(&value) {
-        return Ok(());
-    }
-    Err(ModelError::Count { field, value, minimum, maximum })
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::model::ModelError;
+use crate::scenario::counted;
 
 /// Slowest and fastest run, in excitation periods a second.
 pub const SPEEDS: (f64, f64) = (0.05, 200.0);
@@ -50,10 +51,6 @@ impl LiveView {
     pub(super) fn check(&self) -> Result<(), ModelError> {
         ModelError::check("live.speed", self.speed, SPEEDS, " periods a second")?;
         ModelError::check("live.kick", self.kick, KICKS, "")?;
-        let (minimum, maximum) = WINDOWS;
-        if (minimum..=maximum).contains(&self.periods) {
-            return Ok(());
-        }
-        Err(ModelError::Count { field: "live.periods", value: self.periods, minimum, maximum })
+        counted("live.periods", self.periods, WINDOWS)
     }
 }

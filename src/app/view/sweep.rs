@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::sweep::Dwell;
-use crate::jobs::study::sweep::COUNTS;
 use crate::model::{ModelError, Parameter};
+use crate::questions::sweep::COUNTS;
+use crate::scenario::counted;
 
 /// What is swept, and how.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -38,10 +39,7 @@ impl SweepView {
                 ModelError::check(parameter.field(), end, parameter.range(), "")?;
             }
         }
-        let (minimum, maximum) = COUNTS;
-        if !(minimum..=maximum).contains(&count) {
-            return Err(ModelError::Count { field: "sweep.count", value: count, minimum, maximum });
-        }
+        counted("sweep.count", count, COUNTS)?;
         dwell.validate()
     }
 }

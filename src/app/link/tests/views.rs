@@ -11,10 +11,10 @@ use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, Searc
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
 use crate::app::view::{Layer, MapWindow, Output, Panel, SweepView, Tab, View};
 use crate::dynamics::sweep::Dwell;
-use crate::jobs::design::trust::Quantity;
-use crate::jobs::study::curves;
 use crate::model::materials::Ceramic;
 use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet};
+use crate::questions::curves;
+use crate::questions::design::trust::Quantity;
 use crate::scenario::{END_TIME, ModelChoice, Scenario, VERSION};
 use crate::theory::Resonance;
 

@@ -13,7 +13,7 @@ use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::widgets::ParameterSlider;
 use crate::app::widgets::number::with_unit;
-use crate::jobs::design::alignment::{align, left};
+use crate::questions::design::alignment::{align, left};
 
 /// Most excitation periods by which the run is moved: motions of up to four periods fit somewhere.
 const REACH: f64 = 4.0;

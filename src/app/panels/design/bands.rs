@@ -13,12 +13,12 @@ use crate::app::view::View;
 use crate::app::widgets::number::{round_significant, significant, with_unit};
 use crate::app::widgets::{Card, ParameterSlider, chips, plot_style};
 use crate::export::Pen;
-use crate::jobs::design::band::{half_power, total, usable};
-use crate::jobs::design::point::powers;
-use crate::jobs::design::{Bounds, HarvestPoint, Interval};
-use crate::jobs::study::harvest::HarvestStudy;
-use crate::jobs::study::sweep::Direction;
 use crate::model::Shaking;
+use crate::questions::design::band::{half_power, total, usable};
+use crate::questions::design::point::powers;
+use crate::questions::design::{Bounds, HarvestPoint, Interval};
+use crate::questions::harvest::HarvestStudy;
+use crate::questions::sweep::Direction;
 
 /// Least power (W) on the slider.
 const LEAST: f64 = 1e-9;
@@ -108,7 +108,7 @@ pub(super) fn least_line(plot: &mut PlotUi<'_>, view: &View, study: &HarvestStud
 
 fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
-    let Some(study) = context.studies.bench.harvest.study() else { return };
+    let Some(study) = context.studies.lanes.study::<HarvestStudy>() else { return };
     let present = least(context.view, study);
     let small = |text: &str| RichText::new(text.to_owned()).small();
     least_slider(context, ui, present);
@@ -124,9 +124,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
         Enough::new(&all[index].1, present, bounds)
     });
     // What meets an end of the window may go on beyond it.
-    let (low, high) = study.question().window;
-    let (low, high) =
-        (study.question().scenario.units().hertz(low), study.question().scenario.units().hertz(high));
+    let (low, high) = study.window();
     let at_end = |hertz: f64| (hertz - low).min(high - hertz) < 1e-6 * (high - low);
     ui.spacing_mut().interact_size.y = 18.0;
     Grid::new("bands").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {

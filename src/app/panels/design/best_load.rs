@@ -13,10 +13,11 @@ use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::widgets::Card;
 use crate::app::widgets::number::{significant, with_unit};
-use crate::jobs::design::Plant;
-use crate::jobs::design::load::{BestFrequency, LoadPoint};
-use crate::jobs::design::peak::{Kept, Peak};
-use crate::jobs::study::Study as _;
+use crate::questions::design::Plant;
+use crate::questions::design::load::{BestFrequency, LoadPoint};
+use crate::questions::design::peak::{Kept, Peak};
+use crate::questions::load::{BestAt, LoadStudy};
+use crate::scheduler::{Study as _, Table};
 
 /// Draws the cards beside the curves over the load.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
@@ -29,7 +30,7 @@ pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// The best load in a few words, with a button to take it.
 pub(super) fn brief(context: &mut Context<'_>, ui: &mut Ui) {
-    let Some(study) = context.studies.bench.load.study() else { return };
+    let Some(study) = context.studies.lanes.study::<LoadStudy>() else { return };
     let [resistance, power] = study.linear_best();
     line(ui, &fill("without magnets: {what}", &[("what", &gives(resistance, power))]));
     let bounds = Safety::of(context.view, context.session).map(|safety| safety.0);
@@ -80,7 +81,7 @@ fn line(ui: &mut Ui, text: &str) {
 /// The best of all loads at the best of all frequencies.
 fn both(context: &mut Context<'_>, ui: &mut Ui) {
     let best = best_frequencies(context);
-    let unfinished = context.studies.bench.best.study().filter(|table| !table.finished());
+    let unfinished = context.studies.lanes.study::<Table<BestAt>>().filter(|table| !table.finished());
     if let Some(table) = unfinished {
         line(ui, &computing(table.progress()));
     }

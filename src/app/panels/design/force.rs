@@ -11,7 +11,7 @@ use crate::app::widgets::number::prefix;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::export::Pen;
-use crate::jobs::design::trust::{LAWS, force_beyond_linear};
+use crate::questions::design::trust::{LAWS, force_beyond_linear};
 
 use super::trust::NAMES;
 
@@ -39,7 +39,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 /// Lowest and highest tip displacement of the motion reached (beam lengths), and whether there is such a motion.
 fn range(context: &Context<'_>) -> Option<(f64, f64, bool)> {
     let gap = context.session.boundaries.as_ref()?.gap?;
-    let found = context.studies.bench.operating(&context.view.scenario);
+    let found = context.studies.operating(&context.view.scenario);
     let reached = found.and_then(|(operating, _)| operating.as_ref().ok()?.reached.harvest.as_ref());
     Some(match reached {
         Some(harvest) => (harvest.demand.tip.0, harvest.demand.tip.1, true),

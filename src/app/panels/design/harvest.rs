@@ -15,20 +15,20 @@ use crate::app::view::design::Watched;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
 use crate::export::Pen;
-use crate::jobs::design::HarvestPoint;
-use crate::jobs::study::Study as _;
-use crate::jobs::study::harvest::HarvestStudy;
-use crate::jobs::study::sweep::Direction;
+use crate::questions::design::HarvestPoint;
+use crate::questions::harvest::HarvestStudy;
+use crate::questions::sweep::Direction;
+use crate::scheduler::Study as _;
 
 /// Draws the card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.bench.harvest.study() {
+    let hint = match context.studies.lanes.study::<HarvestStudy>() {
         Some(study) if !study.finished() => computing(study.progress()),
         _ => tr("click to go to a frequency").to_owned(),
     };
     context.plot_card(ui, Panel::Harvest, tr("Over frequency"), &hint, |context, ui| {
         header(context, ui);
-        let study = context.studies.bench.harvest.study();
+        let study = context.studies.lanes.study::<HarvestStudy>();
         match study {
             Some(study) if study.failure().is_none() => plot(context, ui, study),
             Some(study) => {
@@ -143,8 +143,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
     }
     let x = Axis::new(tr("excitation frequency"), "f").unit("Hz");
     let units = view.scenario.units();
-    let (low, high) = study.question().window;
-    let (low, high) = (units.hertz(low), units.hertz(high));
+    let (low, high) = study.window();
     let here = units.hertz(view.scenario.parameters.omega);
     let colour = theme::tokens(ui).ruler;
     let id = ("harvest", watched as u8, measure.axis().title());

@@ -77,7 +77,7 @@ pub(super) fn controls(context: &mut Context<'_>, ui: &mut Ui) {
 /// How the motion reached stands to each limit.
 fn checks(context: &Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
-    let Some((Ok(operating), _)) = context.studies.bench.operating(&context.view.scenario) else { return };
+    let Some((Ok(operating), _)) = context.studies.operating(&context.view.scenario) else { return };
     let Some(harvest) = &operating.reached.harvest else { return };
     let Some(safety) = Safety::of(context.view, context.session) else { return };
     ui.add_space(4.0);

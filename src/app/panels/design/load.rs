@@ -15,23 +15,23 @@ use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
 use crate::export::Pen;
-use crate::jobs::design::load::{BestFrequency, LoadPoint};
-use crate::jobs::design::peak::Peak;
-use crate::jobs::design::{DesignFinding, Plant};
-use crate::jobs::study::Study as _;
-use crate::jobs::study::load::LoadStudy;
-use crate::jobs::work::Finding;
+use crate::questions::design::Plant;
+use crate::questions::design::load::{BestFrequency, LoadPoint};
+use crate::questions::design::peak::Peak;
+use crate::questions::load::{BestAt, LoadStudy};
+use crate::scheduler::{Study as _, Table};
 
 /// Draws the card with the curves.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let progress = context.studies.bench.load.study().map(|study| (study.progress(), study.finished()));
+    let progress =
+        context.studies.lanes.study::<LoadStudy>().map(|study| (study.progress(), study.finished()));
     let hint = match progress {
         Some((done, false)) => computing(done),
         _ => tr("click to take a load").to_owned(),
     };
     context.plot_card(ui, Panel::Load, tr("Over the load"), &hint, |context, ui| {
         header(context, ui);
-        match context.studies.bench.load.study() {
+        match context.studies.lanes.study::<LoadStudy>() {
             Some(study) if study.failure().is_none() => plot(context, ui, study),
             study => {
                 let why = study
@@ -72,12 +72,8 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// What is known of the best frequencies.
 pub(super) fn best_frequencies<'a>(context: &Context<'a>) -> Vec<&'a BestFrequency> {
-    let found = context.studies.bench.best.study().map_or(&[][..], |table| table.found());
-    let pick = |found: &'a Option<Result<Finding, String>>| match found {
-        Some(Ok(Finding::Design(DesignFinding::BestFrequency(best)))) => Some(best),
-        _ => None,
-    };
-    found.iter().filter_map(pick).collect()
+    let table = context.studies.lanes.study::<Table<BestAt>>();
+    table.into_iter().flat_map(Table::found).filter_map(|found| found?.ok()).collect()
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
@@ -136,7 +132,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
     });
     let clicked = shown.response.clicked().then(|| shown.response.interact_pointer_pos()).flatten();
     if let Some(position) = clicked {
-        let (low, high) = study.question().range;
+        let (low, high) = (study.resistances()[0], study.resistances()[study.resistances().len() - 1]);
         use_load(context, x.value(shown.transform.value_from_position(position).x).clamp(low, high));
     }
 }

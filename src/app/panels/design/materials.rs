@@ -10,16 +10,17 @@ use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips_after};
-use crate::jobs::design::materials::{MaterialRow, with_ceramic};
-use crate::jobs::study::Study as _;
 use crate::model::Limits;
 use crate::model::limits::Standing;
 use crate::model::materials::Ceramic;
+use crate::questions::design::materials::{MaterialRow, with_ceramic};
+use crate::questions::materials::Fitted;
+use crate::scheduler::{Study as _, Table};
 use crate::theory::Resonance;
 
 /// Draws the page.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.bench.materials.study() {
+    let hint = match context.studies.lanes.study::<Table<Fitted>>() {
         Some(table) if !table.finished() => computing(table.progress()),
         _ => tr("Table 2 and section 5.4").to_owned(),
     };
@@ -66,8 +67,8 @@ const HEADINGS: [&str; 10] = [
 fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     let present = context.view.scenario.base().ceramic;
-    let Some(study) = context.studies.bench.materials.study() else { return };
-    let rows: Vec<Option<Result<&MaterialRow, &str>>> = study.material_rows().collect();
+    let Some(study) = context.studies.lanes.study::<Table<Fitted>>() else { return };
+    let rows: Vec<Option<Result<&MaterialRow, &str>>> = study.found().collect();
     ui.spacing_mut().interact_size.y = 24.0;
     Grid::new("ceramics").num_columns(HEADINGS.len()).spacing([18.0, 4.0]).show(ui, |ui| {
         for text in HEADINGS {

@@ -6,7 +6,7 @@ use crate::app::text::tr;
 use crate::app::view::design::Watched;
 use crate::app::widgets::number::prefix;
 use crate::app::widgets::plot_style::Axis;
-use crate::jobs::design::HarvestPoint;
+use crate::questions::design::HarvestPoint;
 
 /// What the vertical axis measures.
 pub(in crate::app) struct Measure {

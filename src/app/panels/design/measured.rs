@@ -16,6 +16,7 @@ use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Card, Icon, Series, chips, legend};
 use crate::export::Pen;
+use crate::questions::harvest::HarvestStudy;
 
 /// Most columns that are offered.
 const COLUMNS: usize = 8;
@@ -85,7 +86,7 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
         (Axis::new(tr("excitation frequency"), "f").unit("Hz"), Axis::new(tr("voltage, rms"), "v").unit("V"));
     let mut stable: Vec<Vec<PlotPoint>> = Vec::new();
     let (mut linear, mut reached) = (Vec::new(), Vec::new());
-    if let Some(study) = context.studies.bench.harvest.study() {
+    if let Some(study) = context.studies.lanes.study::<HarvestStudy>() {
         linear.extend(study.linear().points.iter().map(|[f, v, ..]| PlotPoint::new(*f, *v)));
         for branch in study.branches().and_then(Result::ok).unwrap_or_default() {
             let points = study.branch_points(branch);
@@ -242,7 +243,7 @@ fn compared(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
             &[("rms", &with_unit(rms, tr("V rms"))), ("peak", &with_unit(peak, "V"))],
         ),
     );
-    let found = context.studies.bench.operating(&context.view.scenario);
+    let found = context.studies.operating(&context.view.scenario);
     if let Some((Ok(operating), true)) = found
         && let Some(harvest) = &operating.reached.harvest
     {

@@ -1,8 +1,8 @@
 //! The best load among the motions reached.
 
-use crate::jobs::design::Bounds;
-use crate::jobs::design::load::{LoadPoint, best};
-use crate::jobs::study::load::LoadStudy;
+use crate::questions::design::Bounds;
+use crate::questions::design::load::{LoadPoint, best};
+use crate::questions::load::LoadStudy;
 
 /// The best of the motions reached, of all and of those that keep the limits.
 #[derive(Clone, Copy)]

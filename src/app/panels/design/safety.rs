@@ -11,9 +11,10 @@ use crate::app::widgets::number::with_unit;
 use crate::app::widgets::plot_style;
 use crate::export::Pen;
 use crate::export::figure::Anchor;
-use crate::jobs::design::{Asked, Bounds};
+use crate::model::Demand;
 use crate::model::limits::{Check, LimitKind, Standing};
-use crate::model::{Demand, Limits};
+use crate::questions::design::{Asked, Bounds};
+use crate::scheduler::piece::fingerprint;
 
 /// The limits of the device in view.
 pub(in crate::app) struct Safety(pub Bounds);
@@ -32,10 +33,7 @@ impl Safety {
 
     /// A number that is another one for other limits, so that a picture knows when it is old.
     pub(in crate::app) fn fingerprint(&self) -> u64 {
-        let Limits { voltage, gap, deflection, slope } = self.0.limits;
-        let bits = [voltage.map_or(0.0, |(low, _)| low), gap, deflection, slope, self.0.gap.unwrap_or(0.0)];
-        bits.iter()
-            .fold(0, |mixed: u64, value| mixed.rotate_left(17) ^ value.to_bits().wrapping_mul(0x9e37_79b9))
+        fingerprint(&(self.0.limits, self.0.gap))
     }
 
     /// What a demand breaks, in words; empty when it keeps all.

@@ -14,9 +14,9 @@ use crate::app::theme;
 use crate::app::view::design::Aim;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips};
-use crate::jobs::design::find::Objective;
-use crate::jobs::study::Study as _;
-use crate::jobs::study::find::{Candidate, FindStudy};
+use crate::questions::design::find::Objective;
+use crate::questions::find::{Candidate, FindStudy};
+use crate::scheduler::Study as _;
 
 /// The cards beside the map.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
@@ -44,7 +44,7 @@ fn search(context: &mut Context<'_>, ui: &mut Ui) {
         let least = context.view.design.least.unwrap_or(questions::LEAST);
         super::bands::least_slider(context, ui, least);
     }
-    let found = context.studies.bench.found();
+    let found = context.studies.found();
     let label =
         if found.is_some() { tr("Search again from here") } else { tr("Find the best within the limits") };
     if ui.button(label).clicked() {
@@ -99,14 +99,16 @@ fn result(context: &mut Context<'_>, ui: &mut Ui, study: &FindStudy, best: &Cand
     );
     ui.label(RichText::new(text).small().color(tokens.text_weak));
     for (variable, value) in study.question().variables.iter().zip(&best.values) {
-        if let crate::jobs::motions::Coordinate::Dimension(dimension) = variable.coordinate {
+        if let crate::questions::motions::Coordinate::Dimension(dimension) = variable.coordinate {
             let (_, _, unit, factor, _) = device::words(dimension, study.question().scenario.scaling);
             let text = format!("{}: {} {unit}", varied::whose(dimension), significant(factor * value, 4));
             ui.label(RichText::new(text).small().color(tokens.text));
         }
     }
     for (variable, found) in study.question().variables.iter().zip(study.sensitivities()) {
-        let crate::jobs::motions::Coordinate::Dimension(dimension) = variable.coordinate else { continue };
+        let crate::questions::motions::Coordinate::Dimension(dimension) = variable.coordinate else {
+            continue;
+        };
         if found.cliff() {
             let percent = significant(100.0 * found.loss, 2);
             let text = fill(

@@ -11,16 +11,16 @@ use crate::app::theme;
 use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::{Card, Tile, tiles};
 use crate::dynamics::Motion;
-use crate::jobs::design::{Harvest, Operating};
 use crate::model::ElectricalScaling;
 use crate::model::limits::{Assessment, Standing, sag};
+use crate::questions::design::{Harvest, Operating};
 
 /// Least width of a tile, points.
 const TILE: f32 = 140.0;
 
 /// Draws the card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let found = context.studies.bench.operating(&context.view.scenario);
+    let found = context.studies.operating(&context.view.scenario);
     Card::new("").hugging().show(ui, |ui| match found {
         None => {
             ui.label(
@@ -156,7 +156,7 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
             &[("times", &times(gain)), ("linear", &linear)],
         ));
     }
-    let best = context.studies.bench.linear_at_its_best();
+    let best = context.studies.linear_at_its_best();
     if let (Some(linear), Some(harvest)) = (best, &operating.reached.harvest)
         && linear.power > 0.0
     {

@@ -12,11 +12,12 @@ use crate::app::view::Panel;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips};
 use crate::dynamics::Motion;
-use crate::jobs::design::trust::{
+use crate::model::{ForceLaw, MAX_MODES};
+use crate::questions::design::trust::{
     LAWS, LawError, MomentError, Quantity, TrustEntry, law_error, moment_errors,
 };
-use crate::jobs::study::Study as _;
-use crate::model::{ForceLaw, MAX_MODES};
+use crate::questions::trust::Entry;
+use crate::scheduler::{Study as _, Table};
 use crate::theory::Resonance;
 
 /// The model that stands for the truth.
@@ -98,7 +99,7 @@ fn adopt(context: &mut Context<'_>, (modes, force): (usize, ForceLaw)) {
 /// How far each force law is off where the motion goes.
 fn laws(context: &Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
-    let found = context.studies.bench.operating(&context.view.scenario);
+    let found = context.studies.operating(&context.view.scenario);
     let Some((Ok(operating), _)) = found else { return };
     let Some(harvest) = &operating.reached.harvest else {
         ui.label(tr("The motion ends: there is no amplitude to judge."));
@@ -160,7 +161,7 @@ fn shade(off: f64, tokens: &theme::Tokens) -> egui::Color32 {
 
 /// The quantity in view over modes and laws.
 fn convergence(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.bench.trust.study() {
+    let hint = match context.studies.lanes.study::<Table<Entry>>() {
         Some(table) if !table.finished() => computing(table.progress()),
         _ => String::new(),
     };
@@ -220,8 +221,8 @@ fn choose(context: &mut Context<'_>, ui: &mut Ui) {
 
 fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
-    let Some(study) = context.studies.bench.trust.study() else { return };
-    let entries: Vec<Option<Result<&TrustEntry, &str>>> = study.trust_entries().collect();
+    let Some(study) = context.studies.lanes.study::<Table<Entry>>() else { return };
+    let entries: Vec<Option<Result<&TrustEntry, &str>>> = study.found().collect();
     let value = |index: usize| entries.get(index).and_then(|entry| entry.as_ref()?.as_ref().ok()?.value);
     let truth = value(entries.len().saturating_sub(1));
     let quantity = context.view.design.quantity;

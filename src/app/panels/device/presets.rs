@@ -64,9 +64,9 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jobs::design::{Plant, operating};
     use crate::model::Limits;
     use crate::model::limits::{Check, Standing, sag};
+    use crate::questions::design::{Plant, operating};
     use crate::scenario::Scenario;
 
     #[test]

@@ -4,8 +4,8 @@ use crate::app::text::{Language, install, reset};
 use crate::app::view::View;
 use crate::dynamics::motion::Undecided;
 use crate::dynamics::verdict::{Coexisting, OtherStart, Warning};
-use crate::jobs::design::measured::MeasuredError;
 use crate::model::ModelError;
+use crate::questions::design::measured::MeasuredError;
 
 #[test]
 fn values_are_found_between_the_words() {
@@ -63,7 +63,7 @@ const FIELDS: [&str; 2] = ["mode", "periods"];
 #[test]
 fn every_error_of_the_core_is_known() {
     let (mut said, mut files) = (Vec::new(), Vec::new());
-    let mut folders = vec!["solver/src".to_owned(), "src/jobs/design".to_owned()];
+    let mut folders = vec!["solver/src".to_owned(), "src/questions/design".to_owned()];
     while let Some(folder) = folders.pop() {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(&folder);
         for entry in std::fs::read_dir(path).expect("a folder") {

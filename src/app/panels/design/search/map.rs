@@ -13,19 +13,19 @@ use crate::app::widgets::number::{self, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Filling, chips, colour_bar, hatched, recorder, swatches};
 use crate::app::{bench, colours, theme};
-use crate::jobs::design::find::{Evaluation, Objective};
-use crate::jobs::study::Study as _;
-use crate::jobs::study::map::DesignMap;
 use crate::model::{Dimension, ElectricalScaling};
+use crate::questions::design::find::{Evaluation, Objective};
+use crate::questions::map::DesignMap;
+use crate::scheduler::Study as _;
 
 /// Draws the map's card.
 pub(in crate::app::panels::design) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.bench.map.study() {
+    let hint = match context.studies.lanes.study::<DesignMap>() {
         Some(map) if !map.finished() => computing(map.progress()),
         _ => tr("drag or click to go there").to_owned(),
     };
     context.plot_card(ui, Panel::DesignMap, tr("Map"), &hint, |context, ui| {
-        let Some(map) = context.studies.bench.map.study() else { return };
+        let Some(map) = context.studies.lanes.study::<DesignMap>() else { return };
         header(context, ui, map);
         match map.failure() {
             Some(why) => plot_style::no_data(ui, ui.available_rect_before_wrap(), why),
@@ -105,7 +105,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
         let cell = map.shown((column, row))?;
         Some((colour(cell), cell.value.is_some() && cell.violation > 0.0))
     };
-    let generation = context.studies.bench.map.generation();
+    let generation = context.studies.lanes.generation::<DesignMap>();
     let revision = map.version() ^ (generation << 32) ^ tokens.number() << 62;
     let picture = hatched(ui, Id::unique("design map"), revision, map.size(), &paint);
     let variables = &map.question().variables;

@@ -1,0 +1,30 @@
+//! The design bench: what a device harvests in SI units, with which load and ceramic, within which limits, and how far
+//! the model is to be trusted there.
+
+pub mod alignment;
+pub mod band;
+pub mod bounds;
+pub mod change;
+mod dielectric;
+pub mod error;
+pub mod evolution;
+pub mod find;
+pub mod harvest;
+pub mod layout;
+pub mod linear;
+pub mod load;
+pub mod materials;
+pub mod measured;
+pub mod peak;
+pub mod plant;
+pub mod point;
+pub mod polish;
+pub mod thin;
+pub mod trust;
+
+pub use band::Interval;
+pub use bounds::{Asked, Bounds};
+pub use error::DesignError;
+pub use harvest::{Harvest, Operating, operating};
+pub use plant::Plant;
+pub use point::HarvestPoint;

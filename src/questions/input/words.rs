@@ -1,0 +1,150 @@
+//! What the deserialiser says, in plain words: it names types of the programming language.
+
+use serde::de::{Expected, Unexpected};
+use serde_json::Value;
+
+use super::cut;
+
+/// Something else was given than what is needed.
+pub(super) fn instead(given: &Unexpected<'_>, needed: &dyn Expected) -> String {
+    format!("{} stands where {} is needed", thing(given), kind(&needed.to_string()))
+}
+
+/// What is needed where one of several things is chosen by its name.
+pub(super) const NAME: &str = "a text in quotation marks, or an object in braces is needed";
+
+/// Too many values, or too few.
+pub(super) fn as_many(given: usize, needed: &dyn Expected) -> String {
+    format!("{given} values stand where {} is needed", kind(&needed.to_string()))
+}
+
+/// A name that is none of those that are `known`; `words` say what these are.
+pub(super) fn other_than(words: &str, known: impl Iterator<Item = &'static str>) -> String {
+    let names: Vec<String> = known.map(|name| format!("`{name}`")).collect();
+    match names.as_slice() {
+        [] => ": none is known here".to_owned(),
+        [one, other] => format!(": {words} {one} or {other}"),
+        _ => format!(": {words} {}", names.join(", ")),
+    }
+}
+
+/// What was given.
+fn thing(given: &Unexpected<'_>) -> String {
+    match given {
+        Unexpected::Unit | Unexpected::Option => "null".to_owned(),
+        Unexpected::Seq => "a list".to_owned(),
+        Unexpected::Map => "an object in braces".to_owned(),
+        Unexpected::Str(text) => cut(&format!("{text:?}")),
+        Unexpected::Float(value) => Value::from(*value).to_string(),
+        Unexpected::Bool(value) => value.to_string(),
+        Unexpected::Signed(value) => value.to_string(),
+        Unexpected::Unsigned(value) => value.to_string(),
+        other => cut(&other.to_string()),
+    }
+}
+
+/// What was needed: "usize" is a whole number.
+fn kind(needed: &str) -> String {
+    let count = |prefix: &str| needed.strip_prefix(prefix).and_then(|rest| rest.split(' ').next());
+    if let Some(count) = count("an array of length ").or_else(|| count("a tuple of size ")) {
+        return format!("a list of {count} values");
+    }
+    if needed.starts_with("struct ") || needed.starts_with("a map") {
+        return "an object in braces".to_owned();
+    }
+    let words = match needed {
+        "f64" | "f32" => "a number",
+        "usize" | "u64" | "u32" | "u16" | "u8" => "a whole number of at least 0",
+        "i64" | "i32" | "isize" => "a whole number",
+        "bool" | "a boolean" => "true or false",
+        "a string" | "str" | "string" | "variant identifier" => "a text in quotation marks",
+        "a sequence" => "a list",
+        other if other.starts_with("enum ") || other.contains("variant") => "one of the names known here",
+        other => other,
+    };
+    words.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::questions::input::fields;
+    use serde::Deserialize;
+    use serde_json::{Value, json};
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Inner {
+        #[serde(default, rename = "number")]
+        _number: f64,
+        #[serde(default, rename = "count")]
+        _count: usize,
+        #[serde(default, rename = "word")]
+        _word: Word,
+        #[serde(default, rename = "flag")]
+        _flag: bool,
+        #[serde(default, rename = "text")]
+        _text: String,
+        #[serde(default, rename = "list")]
+        _list: Vec<f64>,
+        #[serde(default, rename = "pair")]
+        _pair: (f64, f64),
+        #[serde(default, rename = "inner")]
+        _inner: Option<Box<Inner>>,
+    }
+
+    #[allow(dead_code, reason = "what is read here is of no interest")]
+    #[derive(Debug, Default, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    enum Word {
+        #[default]
+        One,
+        Two(u32),
+    }
+
+    #[test]
+    fn whatever_serde_says_of_a_field_is_said_in_plain_words() {
+        let many = "y".repeat(1 << 20);
+        let said = |value: Value| {
+            let error = fields::<Inner>(&value).expect_err("a wrong field");
+            format!("{}: {}", error.path, error.problem)
+        };
+        for (value, expected) in [
+            (json!({"number": "fast"}), "number: \"fast\" stands where a number is needed"),
+            (json!({"number": [1]}), "number: a list stands where a number is needed"),
+            (json!({"number": null}), "number: null stands where a number is needed"),
+            (json!({"number": {}}), "number: an object in braces stands where a number is needed"),
+            (json!({"count": 2.5}), "count: 2.5 stands where a whole number of at least 0 is needed"),
+            (json!({"count": -1}), "count: -1 stands where a whole number of at least 0 is needed"),
+            (json!({"word": "three"}), "word: `three` is not available: allowed are `one` or `two`"),
+            (
+                json!({"word": {"two": "x"}}),
+                "word.two: \"x\" stands where a whole number of at least 0 is needed",
+            ),
+            (
+                json!({"word": 1}),
+                "word: 1 stands where a text in quotation marks, or an object in braces is needed",
+            ),
+            (json!({"flag": 1}), "flag: 1 stands where true or false is needed"),
+            (json!({"text": true}), "text: true stands where a text in quotation marks is needed"),
+            (json!({"list": 3}), "list: 3 stands where a list is needed"),
+            (json!({"pair": [1]}), "pair: 1 values stand where a list of 2 values is needed"),
+            (json!({"inner": 3}), "inner: 3 stands where an object in braces is needed"),
+            (json!(["x"]), ""),
+            (json!({"number": many}), ""),
+            (json!({many.clone(): 1}), ""),
+            (json!({"word": many}), ""),
+            (json!({"word": {many.clone(): 1}}), ""),
+            (json!({"number": [1], "a`, expected one of b": 2}), ""),
+            (json!({"count": 1e300}), ""),
+        ] {
+            let said = said(value);
+            assert!(expected.is_empty() || said == expected, "{said}");
+            for word in
+                ["f64", "usize", "u32", "struct", "enum", "variant", "tuple", "invalid type", "at line"]
+            {
+                assert!(!said.contains(word), "{said}");
+            }
+            assert!(said.chars().count() < 300 && !said.contains(&many[..81]), "{said}");
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Questions: one type each for the native command, JavaScript and the page, with its fields, its pieces of work, how they
+//! are put together, and its answer; and the sliced run behind the page's plots.
+//!
+//! [`list`] names them all.
+
+use crate::scheduler::Budget;
+use list::TASKS;
+
+pub mod answers;
+pub mod basin;
+pub mod batch;
+pub mod boundary;
+pub mod chart;
+pub mod curves;
+pub mod design;
+pub mod error;
+pub mod find;
+pub mod harvest;
+pub mod input;
+pub mod inspection;
+pub mod limits;
+pub mod list;
+pub mod load;
+pub mod map;
+pub mod materials;
+pub mod modes;
+pub mod motion_chart;
+pub mod motions;
+pub mod multiplier_chart;
+pub mod orbit;
+pub mod request;
+pub mod response;
+pub mod run;
+pub mod simulate;
+pub mod sweep;
+pub mod tongues;
+pub mod trust;
+pub mod verdict;
+
+pub mod checks;
+pub mod question;
+mod subject;
+
+pub use error::RequestError;
+pub use question::Question;
+pub use request::written;
+pub use run::{Run, RunJob};
+
+/// Answers one JSON request with one JSON object; the format is described in the README.
+///
+/// # Errors
+/// One line that names the field, the value and the allowed range.
+pub fn solve(json: &str) -> Result<String, String> {
+    solve_within(json, Budget::default())
+}
+
+/// The same within what `budget` leaves of the request's own, and telling how far it is.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_within(json: &str, budget: Budget<'_>) -> Result<String, String> {
+    // Names in the message may hold what is in the request.
+    request::answer(&TASKS, json, budget).map_err(|error| error.to_string().replace(char::is_control, " "))
+}

@@ -1,0 +1,117 @@
+//! Requests: a question as JSON, with the device, the model and the start that it is about.
+
+use serde_json::Value;
+
+use super::error::{RequestError, read, with_range};
+use super::input::{self, cut};
+use super::question::Question;
+use super::subject;
+use crate::model::ModelError;
+use crate::scenario::Scenario;
+use crate::scheduler::Budget;
+
+/// A kind of question, as requests name it.
+pub struct Task {
+    /// Its name.
+    pub name: &'static str,
+    takes: &'static [&'static str],
+    solve: fn(&Value, &[&'static str], Scenario, &Budget<'_>) -> Result<String, RequestError>,
+}
+
+impl Task {
+    /// The task whose requests are a `Q` each.
+    pub(super) const fn of<Q: Question>() -> Self {
+        Self {
+            name: Q::TASK,
+            takes: Q::TAKES,
+            solve: |fields, beside, scenario, budget| {
+                let question: Q = input::known_fields(fields, beside).map_err(with_range)?;
+                let answer = question.answer(scenario, budget)?;
+                serde_json::to_string(&answer).map_err(|error| RequestError::Study(error.to_string()))
+            },
+        }
+    }
+}
+
+/// Answers one JSON request with one JSON object, within what `budget` leaves of the request's own.
+pub(super) fn answer(tasks: &[Task], json: &str, budget: Budget<'_>) -> Result<String, RequestError> {
+    let Value::Object(mut fields) = input::json(json)? else {
+        return Err(RequestError::NoObject);
+    };
+    let name = fields.remove("task").unwrap_or_default();
+    let seconds = match fields.remove("budget") {
+        Some(seconds) => read::<f64>(&seconds).map_err(|error| error.of("budget"))?,
+        None => Budget::USUAL,
+    };
+    let budget = budget.of(ModelError::check("budget", seconds, Budget::RANGE, " s")?);
+    let task = tasks.iter().find(|task| name.as_str() == Some(task.name)).ok_or_else(|| {
+        let names: Vec<String> = tasks.iter().map(|task| format!("\"{}\"", task.name)).collect();
+        RequestError::Task(cut(&name.to_string()), names.join(", "))
+    })?;
+    let beside = subject::names(task.takes);
+    let scenario = subject::take(&mut fields, task.takes)?;
+    let mut answer = (task.solve)(&Value::Object(fields), &beside, scenario, &budget)?;
+    if let Some(missing) = budget.missing() {
+        // Every answer is an object; this is its last entry.
+        answer.pop();
+        answer += &format!(",\"missing\":{}}}", Value::from(missing));
+    }
+    Ok(answer)
+}
+
+/// The request that asks `question` about `scenario`, as [`answer`] reads it.
+pub fn written<Q: Question>(question: &Q, scenario: &Scenario) -> String {
+    let own = serde_json::to_value(question).unwrap_or_default();
+    let about = subject::written(scenario, Q::TAKES);
+    let entry = |(name, value): (&String, &Value)| format!(",\n \"{name}\":{value}");
+    let entries = own.as_object().into_iter().flatten().chain(&about).filter(|(_, value)| !value.is_null());
+    format!("{{\"task\":\"{}\"{}}}", Q::TASK, entries.map(entry).collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Debug;
+
+    use super::*;
+    use crate::model::{Parameter, Shaking};
+    use crate::questions::basin::Basin;
+    use crate::questions::chart::{Chart, Quantity};
+    use crate::questions::checks::Span;
+    use crate::questions::harvest::Harvest;
+    use crate::questions::simulate::Simulate;
+    use crate::questions::sweep::{Direction, Sweep};
+
+    /// What is read of the request that was written.
+    fn again<Q: Question + PartialEq + Debug>(question: &Q, scenario: &Scenario) {
+        let request = written(question, scenario);
+        let Ok(Value::Object(mut fields)) = input::json(&request) else { panic!("{request}") };
+        assert_eq!(fields.remove("task"), Some(Value::from(Q::TASK)));
+        let about = subject::take(&mut fields, Q::TAKES).expect(&request);
+        assert_eq!((about.parameters, about.model), (scenario.parameters, scenario.model), "{request}");
+        assert!(about.initial == scenario.initial || !Q::TAKES.contains(&"initial"), "{request}");
+        let read: Q = input::known_fields(&Value::Object(fields), &[]).expect(&request);
+        assert_eq!(&read, question, "{request}");
+    }
+
+    #[test]
+    fn a_request_that_is_written_is_read_as_the_same_question() {
+        let scenario = Scenario { initial: Some(vec![0.1; 5]), ..Scenario::default() };
+        let span = Span { from: 8.0, to: 8.5, count: 7 };
+        again(&Chart { omega: span, beta: span, quantity: Quantity::VRms }, &scenario);
+        again(&Basin { count: Some(5), ..Basin::default() }, &scenario);
+        again(&Harvest::default(), &scenario);
+        again(&Simulate::default(), &scenario);
+        let sweep = Sweep {
+            parameter: Parameter::Alpha,
+            from: 1e-4,
+            to: 1e-3,
+            count: 5,
+            direction: Direction::Down,
+            transient: 10,
+            kept: 2,
+            branches: true,
+            shaking: Shaking::Amplitude,
+        };
+        again(&sweep, &scenario);
+    }
+}

@@ -1,0 +1,289 @@
+//! Response curves: the branch of the forced motion over a range of one parameter, and the doubled branches that leave
+//! it, with their stable and unstable parts.
+
+use serde::{Deserialize, Serialize};
+
+use crate::dynamics::branch::MOST_EFFORT;
+use crate::dynamics::{
+    Bifurcation, Branch, BranchEnd, BranchPoint, Course, Instability, Orbit, OrbitError, follow_branch,
+    follow_doubled,
+};
+use crate::model::{ModelError, Parameter, Shaking};
+use crate::scenario::Scenario;
+use crate::scheduler::{Failure, Piece};
+
+/// Most points of a branch.
+const MOST_POINTS: usize = 1500;
+/// How often period doublings are followed: to motions of 2 and 4 periods.
+const DOUBLINGS: usize = 2;
+/// Two places of a parameter are the same within this fraction of its range.
+const SAME: f64 = 1e-5;
+
+/// A point of a response curve.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct ResponsePoint {
+    /// The parameter's value.
+    pub value: f64,
+    /// Root mean square of the voltage (V).
+    pub v_rms: f64,
+    /// Mean electrical power kappa v^2 (dimensionless).
+    pub power: f64,
+    /// Lowest and highest tip displacement, in beam lengths.
+    pub tip: (f64, f64),
+    /// Largest |v| (V).
+    pub v_peak: f64,
+    /// Largest |slope| at the tip (rad).
+    pub slope: f64,
+    /// Modulus of the largest multiplier over the branch's period.
+    pub multiplier: f64,
+}
+
+/// A change of stability on a response curve.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct Change {
+    /// How.
+    pub kind: Instability,
+    /// Where.
+    pub point: ResponsePoint,
+}
+
+/// A branch of periodic motions.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct ResponseCurve {
+    /// Period in excitation periods.
+    pub periods: usize,
+    /// Its points in the order in which they were found.
+    pub points: Vec<ResponsePoint>,
+    /// Changes of stability on it.
+    pub changes: Vec<Change>,
+    /// Why it ends, in words; empty at the end of the range.
+    pub end: String,
+    /// Whether more of it, or of the branches that leave it, was left out because it would take too long.
+    pub cut: bool,
+}
+
+/// Response curves of periodic motions.
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct Response {
+    /// The device and its other numbers.
+    pub scenario: Scenario,
+    /// What changes.
+    pub parameter: Parameter,
+    /// How the base is shaken meanwhile.
+    pub shaking: Shaking,
+    /// Its lowest and highest value.
+    pub range: (f64, f64),
+}
+
+impl Piece for Response {
+    const NAME: &'static str = "response";
+    /// The branches found.
+    type Found = Vec<ResponseCurve>;
+
+    fn carry_out(&self) -> Result<Vec<ResponseCurve>, Failure> {
+        Ok(response(&self.scenario, (self.parameter, self.shaking), self.range)?)
+    }
+}
+
+/// Follows the forced motion of the device of `scenario` while a number that is `moved`, the base shaken so, goes
+/// through `range`, from the low end and,
+/// where it does not come through, from the high end too; then the doubled branches.
+///
+/// The forced motion at an end is the one that Newton's iteration reaches from the linear response there. Branches that
+/// touch none of these, such as isolas, are not found.
+///
+/// # Errors
+/// [`OrbitError`] when the device is not valid at the low end, or has no forced motion at either end.
+pub fn response(
+    scenario: &Scenario,
+    moved: (Parameter, Shaking),
+    range: (f64, f64),
+) -> Result<Vec<ResponseCurve>, OrbitError> {
+    Ok(branches(scenario, moved, range)?.iter().map(curve).collect())
+}
+
+/// A branch that was followed.
+pub(in crate::questions) struct Followed {
+    pub(in crate::questions) branch: Branch,
+    /// Of its motions, in excitation periods.
+    pub(in crate::questions) periods: usize,
+    /// Whether branches that leave it were left out, because they would have taken too long.
+    left_out: bool,
+}
+
+impl Followed {
+    /// Whether more of it, or of the branches that leave it, is not there.
+    pub(in crate::questions) fn is_cut(&self) -> bool {
+        self.left_out || matches!(self.branch.end, BranchEnd::Points | BranchEnd::Effort)
+    }
+}
+
+/// The same with the states of its orbits.
+///
+/// # Errors
+/// As [`response`].
+pub(in crate::questions) fn branches(
+    scenario: &Scenario,
+    moved: (Parameter, Shaking),
+    range: (f64, f64),
+) -> Result<Vec<Followed>, OrbitError> {
+    let from_low = forced(scenario, moved, range, true);
+    let through = from_low.as_ref().is_ok_and(|(branch, _)| {
+        let last = branch.points.last().map(|point| point.value);
+        branch.end == BranchEnd::Range && last.is_some_and(|last| same(last, range.1, range))
+    });
+    let from_high = (!through).then(|| forced(scenario, moved, range, false));
+    let found: Vec<_> = match (from_low, from_high) {
+        (Err(reason), None | Some(Err(_))) => return Err(reason),
+        (low, high) => low.into_iter().chain(high.into_iter().flatten()).collect(),
+    };
+    let mut branches = Vec::new();
+    let mut effort = 0;
+    for (branch, course) in found {
+        add_with_doubled(scenario, (&mut branches, &mut effort), branch, course, DOUBLINGS)?;
+    }
+    Ok(branches)
+}
+
+fn forced(
+    scenario: &Scenario,
+    (parameter, shaking): (Parameter, Shaking),
+    range: (f64, f64),
+    upwards: bool,
+) -> Result<(Branch, Course), OrbitError> {
+    let set = shaking.at(&scenario.parameters, parameter, if upwards { range.0 } else { range.1 });
+    let system = scenario.model.system(set)?;
+    let orbit = Orbit::find(&system, None, 1)?;
+    let course = Course { parameter, shaking, range, periods: 1, upwards, most_points: MOST_POINTS };
+    Ok((follow_branch(&system, &orbit.state, &course)?, course))
+}
+
+fn same(a: f64, b: f64, (low, high): (f64, f64)) -> bool {
+    (a - b).abs() <= SAME * (high - low)
+}
+
+/// Adds a branch to `branches`, and those that leave its period doublings, unless a doubled branch already ended there, or
+/// all together have taken as much `effort` as a single one may.
+fn add_with_doubled(
+    scenario: &Scenario,
+    (branches, effort): (&mut Vec<Followed>, &mut u64),
+    branch: Branch,
+    course: Course,
+    doublings: usize,
+) -> Result<(), OrbitError> {
+    let births: Vec<Bifurcation> = branch
+        .bifurcations
+        .iter()
+        .filter(|found| found.kind == Instability::PeriodDoubling)
+        .cloned()
+        .collect();
+    let place = branches.len();
+    *effort += branch.effort;
+    branches.push(Followed { branch, periods: course.periods, left_out: false });
+    if doublings == 0 {
+        return Ok(());
+    }
+    let system = scenario.model.system(scenario.parameters)?;
+    let mut closed: Vec<f64> = Vec::new();
+    for birth in &births {
+        if closed.iter().any(|value| same(*value, birth.point.value, course.range)) {
+            continue;
+        }
+        if *effort > MOST_EFFORT {
+            branches[place].left_out = true;
+            break;
+        }
+        // A doubling so degenerate that no doubled motion is found beside it leaves the rest of the picture intact.
+        let Ok(doubled) = follow_doubled(&system, birth, &course) else { continue };
+        if let BranchEnd::Halved { value } = doubled.end {
+            closed.push(value);
+        }
+        let course = Course { periods: 2 * course.periods, ..course };
+        add_with_doubled(scenario, (&mut *branches, &mut *effort), doubled, course, doublings - 1)?;
+    }
+    Ok(())
+}
+
+fn curve(followed: &Followed) -> ResponseCurve {
+    let Followed { branch, periods, .. } = followed;
+    let end = match &branch.end {
+        BranchEnd::Range | BranchEnd::Halved { .. } => String::new(),
+        BranchEnd::Lost { reason } => reason.to_string(),
+        BranchEnd::Points => "the largest number of points was reached".to_owned(),
+        BranchEnd::Effort => "following it further would take too long".to_owned(),
+    };
+    let change = |found: &Bifurcation| Change { kind: found.kind, point: point(&found.point) };
+    ResponseCurve {
+        periods: *periods,
+        points: branch.points.iter().map(point).collect(),
+        changes: branch.bifurcations.iter().map(change).collect(),
+        end,
+        cut: followed.is_cut(),
+    }
+}
+
+pub(in crate::questions) fn point(point: &BranchPoint) -> ResponsePoint {
+    let measures = &point.measures;
+    ResponsePoint {
+        value: point.value,
+        v_rms: measures.v_rms,
+        power: measures.power,
+        tip: (measures.tip_min, measures.tip_max),
+        v_peak: measures.v_peak,
+        slope: measures.slope,
+        multiplier: point.multipliers.first().map_or(0.0, |mu| mu.norm()),
+    }
+}
+
+/// Checks the range of a response or a sweep.
+///
+/// # Errors
+/// [`ModelError`] naming the end that is out of range.
+pub fn check_range(parameter: Parameter, (low, high): (f64, f64)) -> Result<(), ModelError> {
+    let (minimum, maximum) = parameter.range();
+    ModelError::check(parameter.field(), low, (minimum, maximum), "")?;
+    ModelError::check(parameter.field(), high, (low, maximum), "")?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{ForceLaw, ParameterSet};
+    use crate::scenario::ModelChoice;
+
+    #[test]
+    fn the_doubled_branch_of_figure_9_is_part_of_its_frequency_response() {
+        let parameters = ParameterSet { alpha: 1e-4, beta: 0.01, omega: 8.0969, ..Default::default() };
+        let scenario = Scenario { parameters, ..Default::default() };
+        let curves =
+            response(&scenario, (Parameter::Omega, Shaking::Amplitude), (7.5, 8.8)).expect("a response");
+        assert_eq!(curves[0].periods, 1);
+        // The motion of the figure, by interpolation on the stable doubled branch: 14.1783 V rms.
+        let doubled = curves.iter().filter(|curve| curve.periods == 2);
+        let pair = doubled
+            .flat_map(|curve| curve.points.windows(2))
+            .find(|pair| {
+                (pair[0].value - 8.0969) * (pair[1].value - 8.0969) <= 0.0 && pair[0].multiplier < 1.0
+            })
+            .expect("a stable doubled branch passes the figure's frequency");
+        let share = (8.0969 - pair[0].value) / (pair[1].value - pair[0].value);
+        let v_rms = pair[0].v_rms + share * (pair[1].v_rms - pair[0].v_rms);
+        assert!((v_rms / 14.1783 - 1.0).abs() < 2e-3, "{v_rms}");
+    }
+
+    #[test]
+    fn a_doubled_branch_between_two_doublings_is_followed_once() {
+        let model = ModelChoice { force: ForceLaw::Exact, ..Default::default() };
+        let parameters = ParameterSet { alpha: 1e-3, beta: 7.5e-4, ..Default::default() };
+        let scenario = Scenario { parameters, model, ..Default::default() };
+        let curves =
+            response(&scenario, (Parameter::Omega, Shaking::Amplitude), (7.9, 8.8)).expect("a response");
+        let kinds =
+            |curve: &ResponseCurve| curve.changes.iter().map(|change| change.kind).collect::<Vec<_>>();
+        let found: Vec<_> = curves.iter().map(|curve| (curve.periods, kinds(curve))).collect();
+        // The exact force hardens: the doubled branch leans to high frequencies and turns back at a fold.
+        let doublings = vec![Instability::PeriodDoubling; 2];
+        assert_eq!(found, vec![(1, doublings), (2, vec![Instability::Fold])]);
+    }
+}

@@ -1,0 +1,113 @@
+//! Pieces of work and what they find. The two are paired by their types; only on the way to a worker, and in the book of
+//! who does what, are they without them. Page and workers send them to each other in a plain binary form, which costs the
+//! page a quarter of the code that JSON would.
+
+use std::any::Any;
+use std::hash::{DefaultHasher, Hasher};
+
+use nanoserde::{DeBin, SerBin};
+
+/// A piece of work, done within a fraction of a second unless it says otherwise.
+pub trait Piece: SerBin + DeBin + Send + Sync + 'static {
+    /// Its name on the way to a worker.
+    const NAME: &'static str;
+    /// Whether it may take long.
+    const LONG: bool = false;
+    /// What it finds.
+    type Found: SerBin + DeBin + Send + 'static;
+
+    /// Does the work.
+    ///
+    /// # Errors
+    /// One sentence that says what is out of range or cannot be computed.
+    fn carry_out(&self) -> Result<Self::Found, Failure>;
+}
+
+/// Why a piece found nothing, in a sentence.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// What was found, on its way back to whoever asked.
+pub enum Finding {
+    /// As it was found, on this side.
+    Here(Box<dyn Any + Send>),
+    /// As a worker sends it.
+    Message(Vec<u8>),
+}
+
+impl Finding {
+    /// What a piece found that finds an `F`.
+    ///
+    /// # Errors
+    /// One sentence when the message is broken.
+    pub fn open<F: DeBin + 'static>(self) -> Result<F, String> {
+        match self {
+            Self::Here(found) => found.downcast().map(|found| *found).map_err(|_| BROKEN.to_owned()),
+            Self::Message(bytes) => F::deserialize_bin(&bytes).map_err(|error| error.to_string()),
+        }
+    }
+}
+
+const BROKEN: &str = "the computation returned something else than asked for";
+
+/// A piece, whatever it finds.
+pub trait Work: Any + Send + Sync {
+    /// Does the work on this side.
+    ///
+    /// # Errors
+    /// As [`Piece::carry_out`].
+    fn carry_out(&self) -> Result<Finding, String>;
+    /// The piece as bytes, to be read by a [`Hand`] of its name.
+    fn message(&self) -> Vec<u8>;
+    /// Its name.
+    fn name(&self) -> &'static str;
+    /// Whether it may take long.
+    fn is_long(&self) -> bool;
+}
+
+impl<P: Piece> Work for P {
+    fn carry_out(&self) -> Result<Finding, String> {
+        let found = Piece::carry_out(self).map_err(|error| error.to_string())?;
+        Ok(Finding::Here(Box::new(found)))
+    }
+
+    fn message(&self) -> Vec<u8> {
+        self.serialize_bin()
+    }
+
+    fn name(&self) -> &'static str {
+        P::NAME
+    }
+
+    fn is_long(&self) -> bool {
+        P::LONG
+    }
+}
+
+/// What a worker does with a message about a piece of this name.
+#[derive(Debug, Clone, Copy)]
+pub struct Hand {
+    /// The piece's name.
+    pub name: &'static str,
+    /// Reads the piece, carries it out, and writes what was found.
+    pub carry_out: fn(&[u8]) -> Result<Vec<u8>, String>,
+}
+
+impl Hand {
+    /// The hand for pieces of the type `P`.
+    pub const fn of<P: Piece>() -> Self {
+        Self {
+            name: P::NAME,
+            carry_out: |message| {
+                let piece = P::deserialize_bin(message).map_err(|error| error.to_string())?;
+                Ok(Piece::carry_out(&piece).map_err(|error| error.to_string())?.serialize_bin())
+            },
+        }
+    }
+}
+
+/// A number that is another one for other data, all of it, floats by their bits.
+pub fn fingerprint(data: &impl SerBin) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    hasher.write(&data.serialize_bin());
+    hasher.finish()
+}

@@ -1,0 +1,46 @@
+//! A question that is one piece of work.
+
+use super::piece::Piece;
+use super::study::{Order, Study};
+
+/// One piece of work and what it found.
+#[derive(Debug, Clone)]
+pub struct Single<P: Piece> {
+    piece: P,
+    handed: bool,
+    found: Option<Result<P::Found, String>>,
+}
+
+impl<P: Piece> Single<P> {
+    /// Nothing found yet.
+    pub fn new(piece: P) -> Self {
+        Self { piece, handed: false, found: None }
+    }
+
+    /// The question.
+    pub fn piece(&self) -> &P {
+        &self.piece
+    }
+
+    /// The finding, or why there is none, once it is known.
+    pub fn found(&self) -> Option<Result<&P::Found, &str>> {
+        self.found.as_ref().map(|found| found.as_ref().map_err(String::as_str))
+    }
+}
+
+impl<P: Piece + Clone> Study for Single<P> {
+    fn next(&mut self) -> Option<Order<Self>> {
+        if std::mem::replace(&mut self.handed, true) {
+            return None;
+        }
+        Some(Order::new(self.piece.clone(), |study: &mut Self, found| study.found = Some(found)))
+    }
+
+    fn progress(&self) -> f64 {
+        if self.finished() { 1.0 } else { 0.0 }
+    }
+
+    fn finished(&self) -> bool {
+        self.found.is_some()
+    }
+}
