@@ -508,7 +508,7 @@ impl HarvestStudy {
             match found {
                 Ok(found) => {
                     for (index, signature) in (begin..).zip(found) {
-                        study.starts[index] = Some(study.from_start(index, signature));
+                        study.starts[index] = Some(study.start_at(index, signature));
                     }
                 }
                 Err(message) => study.failure = Some(message),
@@ -518,7 +518,7 @@ impl HarvestStudy {
     }
 
     /// What a start from rest leads to at the frequency of this index.
-    fn from_start(&self, index: usize, signature: Option<Signature>) -> Option<(Motion, HarvestPoint)> {
+    fn start_at(&self, index: usize, signature: Option<Signature>) -> Option<(Motion, HarvestPoint)> {
         let cell = signature?.cell;
         cell.demand()?;
         let volts = (cell.v_rms, cell.v_peak);

@@ -59,7 +59,7 @@ pub(super) fn answer(tasks: &[Task], json: &str, budget: Budget<'_>) -> Result<S
     Ok(answer)
 }
 
-/// The request that asks `question` about `scenario`, as [`answer`] reads it.
+/// The request that asks `question` about `scenario`, as [`solve`](super::solve) reads it.
 pub fn written<Q: Question>(question: &Q, scenario: &Scenario) -> String {
     let own = serde_json::to_value(question).unwrap_or_default();
     let about = subject::written(scenario, Q::TAKES);
