@@ -117,7 +117,9 @@ enum Worth {
 fn worth(truth: &Truth, verdict: &Verdict) -> Worth {
     match truth::standing(truth, verdict.motion, verdict.v_rms.unwrap_or(0.0), VOLTS) {
         Standing::Right => Worth::Right,
-        Standing::Undecided if verdict.motion == (Motion::Undecided { why: Undecided::DependsOnRounding }) => {
+        Standing::Undecided
+            if verdict.motion == (Motion::Undecided { why: Undecided::DependsOnRounding }) =>
+        {
             Worth::Rounding
         }
         Standing::Undecided => Worth::Undecided,
@@ -143,7 +145,10 @@ fn run(name: &str, count: usize, seed: u64, draw: fn(&mut fastrand::Rng) -> (Par
             let truth = truth::follow(&system, &mut Independent::new(&system), LENGTH);
             let worth = worth(&truth, &verdict);
             if worth != Worth::Right {
-                println!("{worth:?}: {set:?} {model:?}: {truth:?}; verdict {} {:?}", verdict.motion, verdict.v_rms);
+                println!(
+                    "{worth:?}: {set:?} {model:?}: {truth:?}; verdict {} {:?}",
+                    verdict.motion, verdict.v_rms
+                );
             }
             worth
         });
