@@ -8,7 +8,7 @@ mod truth;
 
 use std::time::Instant;
 
-use harvester_lab::dynamics::motion::Undecided;
+use harvester_lab::dynamics::attractors::motion::Undecided;
 use harvester_lab::dynamics::{Motion, Verdict};
 use harvester_lab::model::{ForceLaw, ModelChoice, ParameterSet};
 use truth::{Standing, Truth};

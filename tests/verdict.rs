@@ -2,9 +2,9 @@
 
 #![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
 
-use harvester_lab::dynamics::evidence::Source;
-use harvester_lab::dynamics::rk4::RungeKutta4;
-use harvester_lab::dynamics::verdict::{OtherStart, Warning, force_law_warning};
+use harvester_lab::dynamics::attractors::evidence::Source;
+use harvester_lab::dynamics::attractors::verdict::{OtherStart, Warning, force_law_warning};
+use harvester_lab::dynamics::integration::rk4::RungeKutta4;
 use harvester_lab::dynamics::{ForcedMotion, Instability, Motion, Orbit, Verdict, largest_multipliers};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 

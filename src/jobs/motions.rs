@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::signature::Signature;
+use crate::dynamics::attractors::signature::Signature;
 use crate::dynamics::{ESCAPE_DISPLACEMENT, Effort, IntegrationError, Settler, reach};
 use crate::jobs::response::check_range;
 use crate::model::{Dimension, ModelError, Parameter, ReducedSystem, state_dimension};

@@ -1,7 +1,7 @@
 //! Bands and loads that keep the limits.
 
 use harvester_lab::dynamics::Instability;
-use harvester_lab::dynamics::sweep::{Course, Dwell, sweep};
+use harvester_lab::dynamics::attractors::sweep::{Course, Dwell, sweep};
 use harvester_lab::jobs::design::band::usable;
 use harvester_lab::jobs::design::point::powers;
 use harvester_lab::jobs::design::{Asked, Bounds, Plant, operating};

@@ -3,8 +3,8 @@
 
 mod truth;
 
-use harvester_lab::dynamics::sweep::{Course, Dwell, SweepPoint, sweep};
-use harvester_lab::dynamics::tongue::Window;
+use harvester_lab::dynamics::attractors::sweep::{Course, Dwell, SweepPoint, sweep};
+use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{Verdict, trace_tongue};
 use harvester_lab::model::{ForceLaw, ModelChoice, Parameter, ParameterSet, ReducedSystem, Shaking};
 use harvester_lab::theory::Resonance;

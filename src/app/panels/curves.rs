@@ -12,7 +12,7 @@ use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips_after, legend};
 use crate::app::{colours, questions};
 use crate::dynamics::Instability;
-use crate::dynamics::curves::Criticality;
+use crate::dynamics::bifurcations::curves::Criticality;
 use crate::jobs::study::Study as _;
 use crate::jobs::study::curves::PARAMETERS;
 use crate::model::Parameter;

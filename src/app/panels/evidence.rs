@@ -6,7 +6,7 @@ use super::Context;
 use crate::app::text::{reworded, tr};
 use crate::app::view::Panel;
 use crate::app::{fonts, theme};
-use crate::dynamics::evidence::{Evidence, Source};
+use crate::dynamics::attractors::evidence::{Evidence, Source};
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {

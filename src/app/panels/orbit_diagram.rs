@@ -11,7 +11,7 @@ use crate::app::view::Panel;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Motion;
-use crate::dynamics::sweep::SweepPoint;
+use crate::dynamics::attractors::sweep::SweepPoint;
 use crate::jobs::study::Study as _;
 use crate::jobs::study::sweep::{Direction, SweepStudy};
 

@@ -12,7 +12,7 @@ use crate::app::view::{Output, Panel};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Instability;
-use crate::dynamics::sweep::SweepPoint;
+use crate::dynamics::attractors::sweep::SweepPoint;
 use crate::jobs::response::{ResponseCurve, ResponsePoint};
 use crate::jobs::study::sweep::{Direction, SweepStudy};
 use crate::jobs::work::Work;

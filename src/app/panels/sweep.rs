@@ -9,7 +9,7 @@ use crate::app::questions;
 use crate::app::text::tr;
 use crate::app::view::{Output, Panel, SweepView};
 use crate::app::widgets::{Card, ParameterSlider, chips_after};
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::attractors::sweep::Dwell;
 use crate::model::Parameter;
 
 /// The parameters that can be swept, with their symbols.

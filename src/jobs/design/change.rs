@@ -2,7 +2,7 @@
 //! a line across the jump.
 
 use super::{DesignError, HarvestPoint, Plant};
-use crate::dynamics::sweep::{Course, Dwell, sweep};
+use crate::dynamics::attractors::sweep::{Course, Dwell, sweep};
 use crate::dynamics::{Effort, reach};
 use crate::model::{Parameter, Shaking};
 use crate::scenario::Scenario;

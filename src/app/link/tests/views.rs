@@ -10,7 +10,7 @@ use crate::app::text::Language;
 use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched};
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
 use crate::app::view::{Layer, MapWindow, Output, Panel, SweepView, Tab, View};
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::attractors::sweep::Dwell;
 use crate::jobs::design::trust::Quantity;
 use crate::jobs::study::curves;
 use crate::model::materials::Ceramic;

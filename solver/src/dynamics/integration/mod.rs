@@ -1,0 +1,32 @@
+//! How a motion goes on from a state: time integration, and what is read off a run on the way.
+//!
+//! Read in this order:
+//!
+//! * [`outcome`] says how a run can end, [`rk4`] repeats the paper's own runs, step by step.
+//! * [`collocation`] is the integrator behind everything else: the linear beam and circuit are carried by their exact
+//!   [`propagator`], the magnet's rest force by Gauss-Legendre collocation. [`linear`] has the matrices, `rule` the nodes,
+//!   [`tables`] what a step of one length needs; `variation` is the derivative of a step.
+//! * [`trajectory`] keeps the steps of a run for dense output; [`ongoing`] is a motion without an end, whose numbers may
+//!   change on the way.
+//! * `extremes` and [`summary`] read a run while it is computed.
+//!
+//! It knows nothing of the other rooms.
+
+pub mod collocation;
+pub(super) mod extremes;
+pub mod linear;
+pub mod ongoing;
+pub mod outcome;
+pub mod propagator;
+pub mod rk4;
+pub(super) mod rule;
+pub mod summary;
+pub mod tables;
+pub mod trajectory;
+pub(super) mod variation;
+
+pub use collocation::{Collocation, Settings, Step};
+pub use ongoing::{Ongoing, Reach};
+pub use outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
+pub use rule::NODES;
+pub use trajectory::Trajectory;
