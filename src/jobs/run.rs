@@ -1,7 +1,7 @@
 //! The run behind the linked plots: computed in slices, so that a frame never waits for it.
 
 use crate::dynamics::attractors::poincare::{PhasePoint, Recurrence, recurrence};
-use crate::dynamics::integration::collocation::Step;
+use crate::dynamics::integration::Step;
 use crate::dynamics::integration::summary::{Collector, Envelope, Summary};
 use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
 use crate::model::{ModelError, ReducedSystem};

@@ -4,7 +4,7 @@ use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::{Answer, count};
-use crate::dynamics::integration::collocation::Step;
+use crate::dynamics::integration::Step;
 use crate::dynamics::integration::rk4::{RungeKutta4, amplification};
 use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
 use crate::jobs::RequestError;

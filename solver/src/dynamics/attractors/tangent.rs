@@ -6,7 +6,7 @@
 //! Galgani, Giorgilli & Strelcyn, Meccanica 15, 1980, 9-20).
 
 use crate::dynamics::integration::Step;
-use crate::dynamics::integration::tables::BLOCK;
+use crate::dynamics::integration::propagator::BLOCK;
 use crate::dynamics::integration::variation::Variation;
 use crate::dynamics::orbits::period_map::scales;
 use crate::model::{ReducedSystem, RestForce};

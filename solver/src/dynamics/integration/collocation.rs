@@ -13,19 +13,20 @@
 //! Reference: collocation at Gauss points is of order 2m (Hairer, Norsett & Wanner, "Solving Ordinary
 //! Differential Equations I", section II.7); its exponential form is in Hochbruck & Ostermann, Acta Numerica 2010.
 
-mod grid;
-mod step;
-
-pub(in crate::dynamics) use self::grid::coarsest_steps;
-use self::grid::{DEEPEST_LEVEL, Grid};
-use self::step::Attempt;
-pub(in crate::dynamics) use self::step::ROUNDING;
-pub use self::step::Step;
+use super::grid::{DEEPEST_LEVEL, Grid};
 use super::linear::LinearPart;
 use super::outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
-use super::propagator::{Propagator, StepRest, Workspace};
-use super::tables::{BLOCK, NODES, NodeValues, StepTables};
+use super::propagator::{BLOCK, Propagator, StepRest, Workspace};
+use super::rule::{NODES, NodeValues, RULE, add_scaled};
+use super::step::Step;
+use super::tables::StepTables;
 use crate::model::{ReducedSystem, RestForce};
+
+/// Most passes of the fixed-point iteration before a step counts as too long.
+const MAX_PASSES: usize = 14;
+
+/// Relative accuracy below which rounding hides every error.
+pub(in crate::dynamics) const ROUNDING: f64 = 1e-14;
 
 /// Steps that a run may take beyond [`MOST_SHORTENED`]: none may go on for minutes.
 const SPARE_STEPS: u64 = 200_000;
@@ -67,6 +68,12 @@ pub struct Collocation {
     rest: NodeValues,
     tip: NodeValues,
     steps: u64,
+}
+
+/// What happened to an attempted step.
+enum Attempt {
+    Accepted { error: f64 },
+    Rejected,
 }
 
 impl Collocation {
@@ -213,6 +220,74 @@ impl Collocation {
         Ok(None)
     }
 
+    /// Solves the step from the present state; leaves R and s at the nodes in `self`.
+    fn attempt(&mut self, tables: &StepTables) -> Attempt {
+        // Compiled twice, once for the paper's law alone, which then stays in registers.
+        let solution = match self.force {
+            RestForce::Quadratic { c2 } => self.solve(&RestForce::Quadratic { c2 }, tables),
+            _ => self.solve(&self.force, tables),
+        };
+        match solution {
+            Some((rest, tip, scale)) => self.judge(tables, rest, tip, scale),
+            None => Attempt::Rejected,
+        }
+    }
+
+    /// R and s at the nodes under the integrator's own `force`, and the size of s by which their error is judged; `None`
+    /// when the step is too long.
+    #[inline(always)]
+    fn solve(&self, force: &RestForce, tables: &StepTables) -> Option<(NodeValues, NodeValues, f64)> {
+        let free = tables.tip.free(&self.extended);
+        let n = self.part.modes;
+        let s: f64 = self.extended[..n].iter().sum();
+        let w: f64 = self.extended[n..2 * n].iter().sum();
+        let mut tip = free;
+        add_scaled(&mut tip, force.rest(s), &tables.guess[0]);
+        add_scaled(&mut tip, force.slope(s) * w, &tables.guess[1]);
+        let scale = self.gap.max(s.abs());
+        // Each pass shrinks the error by an order of magnitude or more, so the last change bounds what is left.
+        let settled = (1e-4 * self.settings.tolerance).max(ROUNDING) * scale;
+        let contact = force.contact();
+        for _ in 0..MAX_PASSES {
+            let rest = force.rest_at(&tip);
+            let mut next = free;
+            for (value, row) in rest.iter().zip(&tables.tip.from_rest) {
+                add_scaled(&mut next, *value, row);
+            }
+            let change = largest_difference(&next, &tip);
+            tip = next;
+            let lowest = tip.iter().copied().fold(f64::INFINITY, f64::min);
+            let beyond = contact.is_some_and(|contact| lowest <= contact);
+            if !change.is_finite() || beyond {
+                return None;
+            }
+            if change <= settled {
+                return Some((force.rest_at(&tip), tip, scale));
+            }
+        }
+        None
+    }
+
+    fn judge(&mut self, tables: &StepTables, rest: NodeValues, tip: NodeValues, scale: f64) -> Attempt {
+        let mut highest = 0.0;
+        for row in &RULE.highest {
+            let coefficient: f64 = row.iter().zip(&rest).map(|(a, b)| a * b).sum();
+            highest += coefficient.abs();
+        }
+        // R's polynomial ends where its last coefficients are; what they move s by bounds what the missing ones do.
+        let tolerance = self.settings.tolerance;
+        let within = tables.gain / tolerance;
+        let end = tables.end_gain / (tolerance * tolerance).max(ROUNDING);
+        let error = highest * within.max(end) / scale;
+        if !(error <= 1.0) {
+            return Attempt::Rejected;
+        }
+        self.rest = rest;
+        self.tip = tip;
+        tables.end(&self.extended, &self.rest, &mut self.end);
+        Attempt::Accepted { error }
+    }
+
     fn present<'a>(&'a self, tables: &'a StepTables) -> Step<'a> {
         Step {
             time: self.time(),
@@ -292,6 +367,15 @@ impl Collocation {
             _ => Err(IntegrationError::StepTooSmall { time, tolerance: self.settings.tolerance }),
         }
     }
+}
+
+/// Largest |a - b|, by pairs: one chain of eight comparisons would take as long as a pass of the iteration. A NaN
+/// may get lost, but not in the estimate of the error, which adds up all nodes.
+fn largest_difference(a: &NodeValues, b: &NodeValues) -> f64 {
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let eight: NodeValues = std::array::from_fn(|i| (a[i] - b[i]).abs());
+    let four: [f64; 4] = std::array::from_fn(|i| larger(eight[i], eight[i + 4]));
+    larger(larger(four[0], four[2]), larger(four[1], four[3]))
 }
 
 /// Checks length and finiteness of a state.

@@ -5,9 +5,9 @@
 //! what comes out is a value that the motion takes, whatever the polynomial was worth: where a step leaves out a
 //! fast, decaying part of a vibration, it may miss the top between two nodes but never invents one.
 
-use super::collocation::Step;
 use super::propagator::{Propagator, StepRest, Workspace};
 use super::rule::{NODES, NodeValues, RULE};
+use super::step::Step;
 
 /// How far a resolved scalar may rise above its node values, in units of their range. The widest space between nodes
 /// is 0.18 of a step; on a parabola with its top in the middle of it the excess is 0.04.

@@ -4,9 +4,10 @@
 //! [`Trajectory`](super::Trajectory) reads it. When a number changes, another motion begins where this one was read
 //! last, at the phase that the excitation had there.
 
-use super::collocation::{Collocation, Settings, Step};
+use super::collocation::{Collocation, Settings};
 use super::outcome::{IntegrationError, Outcome};
 use super::propagator::{StepRest, Workspace};
+use super::step::Step;
 use crate::model::ReducedSystem;
 
 /// A motion with dense output of its present step.

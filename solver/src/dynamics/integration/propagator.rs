@@ -9,16 +9,15 @@
 //! Reference: Higham, "Functions of Matrices" (2008), chapter 10; the polynomial part is the phi functions of
 //! Hochbruck & Ostermann, Acta Numerica 2010, in the basis of a step's node values.
 
-mod dense;
-mod ends;
 #[cfg(test)]
 mod tests;
 
-pub(in crate::dynamics) use self::dense::{StepRest, Workspace};
 use super::linear::LinearPart;
-use super::rule::{MOST_TERMS, NODES, RULE};
-use super::tables::BLOCK;
+use super::node_map::NodeMap;
+use super::rule::{MOST_TERMS, NODES, NodeValues, RULE, add_scaled};
 
+/// Entries of the state at the end of a step that are summed together.
+pub(in crate::dynamics) const BLOCK: usize = 4;
 /// Remainder of the Taylor series, relative to the vector.
 const REMAINDER: f64 = 1e-18;
 /// Largest product of the fastest rate and the duration that is left to the Taylor series.
@@ -145,6 +144,169 @@ impl Propagator {
             add(out, *value, column);
         }
     }
+
+    /// What a unit of component `column` of the vector at the start (from 2N + 3 on: of R at the nodes) does to the
+    /// first entries of the vector after the longest duration.
+    pub(in crate::dynamics) fn end_column(&self, column: usize, out: &mut [f64]) {
+        let Some(flow) = self.flows.last() else { return };
+        out.copy_from_slice(&flow.columns[column * self.stride..][..out.len()]);
+        if let Some(own) = out.get_mut(column) {
+            *own += 1.0;
+        }
+    }
+
+    /// The scalar `row` . y at the nodes of a step of the longest duration.
+    pub(in crate::dynamics) fn read_at_nodes(&self, row: &[f64], map: &mut NodeMap) {
+        // Its Taylor series over a unit, and those of its response to R = 1 before the moments.
+        let mut series = vec![row.to_vec()];
+        let (mut rate, mut responses) = (vec![0.0; self.width], Vec::with_capacity(self.terms));
+        self.part.apply(&vec![0.0; self.width], 1.0, &mut rate);
+        for k in 0..self.terms {
+            responses.push(self.unit * dot(&series[k], &rate));
+            let mut next = vec![0.0; self.width];
+            self.part.apply_transposed(&series[k], &mut next);
+            scale(&mut next, self.unit / (k as f64 + 1.0));
+            series.push(next);
+        }
+        let mut y = vec![0.0; self.stride];
+        for (j, node) in RULE.nodes.iter().enumerate() {
+            let reached = self.read(*node, &series, &responses, &mut y);
+            for (entry, row) in y.iter().zip(&mut map.from_state) {
+                row[j] = *entry;
+            }
+            for (entry, row) in reached.iter().zip(&mut map.from_rest) {
+                row[j] = *entry;
+            }
+        }
+    }
+
+    /// The functional with the given series, as one of the vector at the start (in `row`) and of R at the nodes, at
+    /// `fraction` of the longest duration: backwards through the last short part, then through whole flows.
+    fn read(&self, fraction: f64, series: &[Vec<f64>], responses: &[f64], row: &mut [f64]) -> NodeValues {
+        let units = self.units();
+        let length = fraction * units as f64;
+        let mut position = length as u64;
+        let short = length - position as f64;
+        let mut of_legendre = [0.0; NODES];
+        let mut collect = |from: f64, length: f64, of_part: &NodeValues| {
+            let polynomials = RULE.polynomials(from / units as f64, length / units as f64);
+            for (sum, polynomial) in of_legendre.iter_mut().zip(&polynomials) {
+                *sum += dot(polynomial, of_part);
+            }
+        };
+        row.fill(0.0);
+        let (mut power, mut of_part) = (1.0, [0.0; NODES]);
+        for (k, term) in series.iter().enumerate() {
+            add(row, power, term);
+            power *= short;
+            if let Some(response) = responses.get(k) {
+                add_scaled(&mut of_part, power * response, &RULE.moments[k]);
+            }
+        }
+        collect(position as f64, short, &of_part);
+        let mut earlier = vec![0.0; self.width];
+        for (level, flow) in
+            self.flows.iter().enumerate().filter(|(level, _)| length as u64 >> level & 1 == 1)
+        {
+            position -= 1 << level;
+            let (free, forced) = flow.columns.split_at(self.stride * self.width);
+            for (value, column) in of_part.iter_mut().zip(forced.chunks_exact(self.stride)) {
+                *value = dot(row, column);
+            }
+            collect(position as f64, (1_u64 << level) as f64, &of_part);
+            for (value, column) in earlier.iter_mut().zip(free.chunks_exact(self.stride)) {
+                *value = dot(row, column);
+            }
+            add(row, 1.0, &earlier);
+        }
+        RULE.to_cardinal(&of_legendre)
+    }
+
+    /// Carries `y` (length 2N + 3) from one offset within a step to a later one, both in units of time from the
+    /// step's start and no further apart than the longest duration.
+    pub(in crate::dynamics) fn carry(
+        &self,
+        y: &mut [f64],
+        from: f64,
+        to: f64,
+        rest: &StepRest,
+        workspace: &mut Workspace,
+    ) {
+        let count = ((to - from) / self.unit).max(0.0);
+        let whole = (count as u64).min(2 * self.units() - 1);
+        let mut position = from;
+        for (level, flow) in self.flows.iter().enumerate().rev() {
+            if whole >> level & 1 == 0 {
+                continue;
+            }
+            let duration = self.unit * (1_u64 << level) as f64;
+            let values = RULE.values(&rest.coefficients, position / rest.step, duration / rest.step);
+            let Workspace { next, .. } = workspace;
+            next.clear();
+            next.resize(self.stride, 0.0);
+            let inputs = y.iter().chain(&values);
+            for (value, column) in inputs.zip(flow.columns.chunks_exact(self.stride)) {
+                add(next, *value, column);
+            }
+            add(y, 1.0, next);
+            position += duration;
+        }
+        if to > position {
+            self.carry_briefly(y, position, to - position, rest, workspace);
+        }
+    }
+
+    /// By Taylor series, over at most a unit.
+    fn carry_briefly(
+        &self,
+        y: &mut [f64],
+        from: f64,
+        duration: f64,
+        rest: &StepRest,
+        workspace: &mut Workspace,
+    ) {
+        // Term k carries duration^k, and so must the coefficient of R that enters it.
+        let coefficients = RULE.taylor(&rest.values, from / rest.step, rest.step / duration);
+        let Workspace { term, next } = workspace;
+        term.clear();
+        term.extend_from_slice(y);
+        next.resize(self.width, 0.0);
+        next.truncate(self.width);
+        for k in 0..self.terms.max(NODES) {
+            self.part.apply(term, coefficients.get(k).copied().unwrap_or(0.0), next);
+            scale(next, duration / (k as f64 + 1.0));
+            add(y, 1.0, next);
+            std::mem::swap(term, next);
+        }
+    }
+}
+
+/// The polynomial R of a step.
+#[derive(Debug, Clone, Default)]
+pub(in crate::dynamics) struct StepRest {
+    /// Length of the step (dimensionless).
+    step: f64,
+    values: NodeValues,
+    coefficients: NodeValues,
+}
+
+impl StepRest {
+    /// The polynomial with the given `values` at the nodes of a step.
+    pub(in crate::dynamics) fn new(values: &NodeValues, step: f64) -> Self {
+        Self { step, values: *values, coefficients: RULE.coefficients(values) }
+    }
+
+    /// R at `place`, a fraction of the step.
+    pub(in crate::dynamics) fn at(&self, place: f64) -> f64 {
+        RULE.values(&self.coefficients, place, 0.0)[0]
+    }
+}
+
+/// Vectors that [`Propagator::carry`] reuses, so that it does not allocate.
+#[derive(Debug, Clone, Default)]
+pub(in crate::dynamics) struct Workspace {
+    term: Vec<f64>,
+    next: Vec<f64>,
 }
 
 /// Number of terms after which those of exp(x) are below [`REMAINDER`].

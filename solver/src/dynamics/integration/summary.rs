@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::collocation::Step;
 use super::extremes::{Highest, Scalar};
 use super::propagator::Propagator;
-use super::tables::NODES;
+use super::rule::NODES;
+use super::step::Step;
 use crate::model::quadrature::gauss_legendre;
 
 /// Amplitudes and means over the last part of a run, the window.

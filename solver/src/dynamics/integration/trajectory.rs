@@ -1,9 +1,10 @@
 //! A run kept step by step, with dense output: the state at any time, as accurate as the steps themselves.
 
-use super::collocation::{Collocation, Settings, Step};
+use super::collocation::{Collocation, Settings};
 use super::outcome::{IntegrationError, Outcome};
 use super::propagator::{Propagator, StepRest, Workspace};
-use super::tables::NodeValues;
+use super::rule::NodeValues;
+use super::step::Step;
 use crate::model::ReducedSystem;
 
 /// The steps of a run. Between them the linear part is propagated exactly under the step's polynomial R.

@@ -4,7 +4,8 @@
 //! at the nodes by (I - K D)^-1 T times that change. K is of the order of the step squared, so I - K D is near the
 //! identity and needs no pivoting; a step for which it is not is too long for the iteration as well.
 
-use super::tables::{NODES, NodeValues, RULE, StepTables, add_scaled};
+use super::rule::{NODES, NodeValues, RULE, add_scaled};
+use super::tables::StepTables;
 
 /// A pivot below this is far from the identity's.
 const SMALLEST_PIVOT: f64 = 0.05;

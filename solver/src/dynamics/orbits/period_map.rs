@@ -12,10 +12,12 @@ use std::f64::consts::TAU;
 use nalgebra::DMatrix;
 
 use super::orbit_error::OrbitError;
-use crate::dynamics::integration::collocation::{ROUNDING, check_state, coarsest_steps};
+use crate::dynamics::integration::collocation::{ROUNDING, check_state};
+use crate::dynamics::integration::grid::coarsest_steps;
 use crate::dynamics::integration::linear::LinearPart;
 use crate::dynamics::integration::propagator::Propagator;
-use crate::dynamics::integration::tables::{NodeValues, StepTables, add_scaled};
+use crate::dynamics::integration::rule::{NodeValues, add_scaled};
+use crate::dynamics::integration::tables::StepTables;
 use crate::dynamics::integration::variation::{add_padded, differentiate, high_degrees};
 use crate::dynamics::integration::{ESCAPE_DISPLACEMENT, Step};
 use crate::model::{ReducedSystem, RestForce};

@@ -17,7 +17,7 @@ use nalgebra::DVector;
 
 use super::condition::Condition;
 use super::curve::{Curve, CurveEnd, CurvePoint, SpecialPoint, Start};
-use super::locate::{KNOWN, ends};
+use super::locate::{KNOWN, ends, halved, leaves, specials};
 use super::station::Station;
 use super::surface::Surface;
 use crate::dynamics::bifurcations::arclength::DIFFERENCE;
@@ -102,9 +102,9 @@ struct Side {
 }
 
 /// What a trace works with.
-pub(super) struct Tracer<'a> {
-    pub(super) surface: Surface,
-    pub(super) plane: &'a Plane,
+struct Tracer<'a> {
+    surface: Surface,
+    plane: &'a Plane,
 }
 
 impl Tracer<'_> {
@@ -132,9 +132,9 @@ impl Tracer<'_> {
                 Ok(next) => next,
             };
             let after = side.points.len() + 1;
-            let mut end = self.halved(&past, &here).or_else(|| self.leaves(&here, &next));
+            let mut end = halved(&mut self.surface, &past, &here).or_else(|| leaves(&here, &next));
             if end.is_none() && !self.surface.undamped {
-                for (kind, station) in self.specials(past.last(), &here, &next, 0) {
+                for (kind, station) in specials(&mut self.surface, past.last(), &here, &next, 0) {
                     if ends(&station, kind) {
                         end = Some((kind, station));
                         break;
@@ -245,7 +245,7 @@ impl Tracer<'_> {
 
     /// The station at the curve's point in the hyperplane through `guess`, where the condition may have this `gradient`,
     /// with the `normal`.
-    pub(super) fn land(
+    fn land(
         &mut self,
         from: &Station,
         guess: &DVector<f64>,

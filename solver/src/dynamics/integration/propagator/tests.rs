@@ -1,6 +1,7 @@
 use super::*;
 use crate::dynamics::integration::linear::tests::{matrix, part, stiff};
-use crate::dynamics::integration::tables::{NodeMap, StepTables};
+use crate::dynamics::integration::node_map::NodeMap;
+use crate::dynamics::integration::tables::StepTables;
 use crate::model::ParameterSet;
 
 // By tests/reference/propagator.py for [`stiff`] over STEP: what a unit of each component of the vector at the
