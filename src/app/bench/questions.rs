@@ -132,7 +132,7 @@ pub(in crate::app) fn range_of(view: &View, session: &Session, side: &Side) -> (
     let (low, high) = side.range.unwrap_or_else(|| {
         let (usual_low, usual_high) = side.dimension.usual();
         let device = view.scenario.device().unwrap_or_default();
-        let value = side.dimension.get(&device);
+        let value = device.get(side.dimension);
         match side.dimension {
             Dimension::Frequency => {
                 let (low, high) = window(view, session);

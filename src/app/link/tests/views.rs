@@ -50,7 +50,7 @@ fn device() -> impl Strategy<Value = Device> {
         |(numbers, repelling, open, ceramic)| {
             let mut device = Device { repelling, ceramic, ..Device::default() };
             for (dimension, number) in Dimension::ALL.into_iter().zip(numbers) {
-                *dimension.get_mut(&mut device) = number.unwrap_or(dimension.get(&device));
+                *device.get_mut(dimension) = number.unwrap_or(device.get(dimension));
             }
             if open {
                 device.resistance = f64::INFINITY;
