@@ -4,9 +4,9 @@
 //!
 //! * [`outcome`] says how a run can end, [`rk4`] repeats the paper's own runs, step by step.
 //! * [`collocation`] is the integrator behind everything else: the linear beam and circuit are carried by their exact
-//!   [`propagator`], the magnet's rest force by Gauss-Legendre collocation. [`linear`] has the matrices, `rule` the nodes,
-//!   [`tables`] what a step of one length needs, in part as [`node_map`]s; `grid` says where steps begin and end, [`step`]
-//!   is one of them as it is shown, `variation` its derivative.
+//!   [`propagator`], the magnet's rest force by Gauss-Legendre collocation. [`linear`] has the matrices, [`rule`] the
+//!   nodes, [`tables`] what a step of one length needs, in part as [`node_map`]s; `grid` says where steps begin and end,
+//!   [`step`] is one of them as it is shown, `variation` its derivative.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`ongoing`] is a motion without an end, whose numbers may
 //!   change on the way.
 //! * `extremes` and [`summary`] read a run while it is computed.
@@ -22,7 +22,7 @@ pub mod ongoing;
 pub mod outcome;
 pub mod propagator;
 pub mod rk4;
-pub(super) mod rule;
+pub mod rule;
 pub mod step;
 pub mod summary;
 pub mod tables;
