@@ -8,7 +8,7 @@ use super::inspection::{Inspection, inspect};
 use super::motions::MotionPlane;
 use super::response::{ResponseCurve, response};
 use crate::dynamics::attractors::signature::Signature;
-use crate::dynamics::attractors::sweep::{Course, Dwell, SweepPoint, sweep};
+use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
 use crate::dynamics::bifurcations::curves::{Curve, Line, Start, bifurcations_along_line, trace_curve};
 use crate::dynamics::bifurcations::tongue::{Tongue, Window};
 use crate::dynamics::{Plane, largest_multipliers, trace_tongue};
@@ -166,7 +166,7 @@ impl Work {
             }
             Self::Sweep { scenario, parameter, shaking, values, state, dwell } => {
                 let (_, start) = scenario.validate().map_err(sentence)?;
-                let course = Course {
+                let course = SweepCourse {
                     set: &scenario.parameters,
                     model: scenario.model,
                     parameter: *parameter,

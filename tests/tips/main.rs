@@ -3,7 +3,7 @@
 
 mod truth;
 
-use harvester_lab::dynamics::attractors::sweep::{Course, Dwell, SweepPoint, sweep};
+use harvester_lab::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
 use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{Verdict, trace_tongue};
 use harvester_lab::model::{ForceLaw, ModelChoice, Parameter, ParameterSet, ReducedSystem, Shaking};
@@ -46,7 +46,7 @@ fn points(seed: u64, each: usize) -> Vec<(ParameterSet, ModelChoice)> {
 
 /// The motion that a sweep of two values reaches at the first.
 fn swept(set: &ParameterSet, model: ModelChoice, system: &ReducedSystem) -> SweepPoint {
-    let course = Course {
+    let course = SweepCourse {
         set,
         model,
         parameter: Parameter::Beta,

@@ -21,7 +21,7 @@ const NAMED: usize = 4;
     Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
 )]
 #[serde(rename_all = "snake_case")]
-pub enum Source {
+pub enum EvidenceSource {
     /// How the run ended.
     Run,
     /// Floquet multipliers of the periodic motion near the last state.
@@ -46,7 +46,7 @@ pub enum Source {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Evidence {
     /// Where it comes from.
-    pub source: Source,
+    pub source: EvidenceSource,
     /// What it says, one line.
     pub says: String,
     /// Whether it agrees with the class; `None` when it neither supports nor contradicts it.
@@ -54,13 +54,13 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    fn new(source: Source, agrees: Option<bool>, says: String) -> Self {
+    fn new(source: EvidenceSource, agrees: Option<bool>, says: String) -> Self {
         Self { source, says, agrees }
     }
 
     /// A run that ended.
     pub(super) fn run(motion: Motion) -> Self {
-        Self::new(Source::Run, Some(true), format!("run: {motion}"))
+        Self::new(EvidenceSource::Run, Some(true), format!("run: {motion}"))
     }
 
     /// The multipliers of the periodic motion reached.
@@ -72,7 +72,7 @@ impl Evidence {
             orbit.largest_multiplier().norm(),
             short(distance),
         );
-        Self::new(Source::Multipliers, Some(orbit.stable()), says)
+        Self::new(EvidenceSource::Multipliers, Some(orbit.stable()), says)
     }
 
     /// Whether the stroboscopic points repeat.
@@ -108,7 +108,7 @@ impl Evidence {
             (Motion::Quasiperiodic | Motion::Chaotic, None) => Some(true),
             _ => None,
         };
-        Some(Self::new(Source::Recurrence, agrees, says))
+        Some(Self::new(EvidenceSource::Recurrence, agrees, says))
     }
 
     /// The set that the stroboscopic points fill.
@@ -118,7 +118,11 @@ impl Evidence {
             Motion::Quasiperiodic => ("fill a surface", Some(true)),
             _ => ("are scattered", None),
         };
-        Self::new(Source::Points, agrees, format!("stroboscopic points {shape}: dimension {dimension:.2}"))
+        Self::new(
+            EvidenceSource::Points,
+            agrees,
+            format!("stroboscopic points {shape}: dimension {dimension:.2}"),
+        )
     }
 
     /// Where starts that differ by rounding lead, and how many of them.
@@ -130,7 +134,7 @@ impl Evidence {
             format!("{count} × {motion}{volts}")
         };
         let all: Vec<String> = ends.iter().map(end).collect();
-        Self::new(Source::Beside, None, format!("starts that differ by rounding: {}", all.join("; ")))
+        Self::new(EvidenceSource::Beside, None, format!("starts that differ by rounding: {}", all.join("; ")))
     }
 
     /// The rotation number of a torus.
@@ -138,7 +142,7 @@ impl Evidence {
         let Rotation { number, error } = rotation;
         let says =
             format!("rotation number {number:.9}, the halves of the record differ by {}", short(error));
-        Self::new(Source::Rotation, Some(true), says)
+        Self::new(EvidenceSource::Rotation, Some(true), says)
     }
 
     /// The 0-1 test.
@@ -148,7 +152,7 @@ impl Evidence {
             Motion::Chaotic => Some(found > 0.5),
             _ => None,
         };
-        Self::new(Source::ZeroOne, agrees, format!("0-1 test {found:.2}: 0 is regular, 1 chaotic"))
+        Self::new(EvidenceSource::ZeroOne, agrees, format!("0-1 test {found:.2}: 0 is regular, 1 chaotic"))
     }
 
     /// The exponent, which must be that of the multipliers on a periodic motion.
@@ -174,7 +178,7 @@ impl Evidence {
             (Motion::Chaotic, sign) => Some(sign == Sign::Positive),
             _ => None,
         };
-        Self::new(Source::Exponent, agrees, says)
+        Self::new(EvidenceSource::Exponent, agrees, says)
     }
 
     /// The spectrum: its strongest peaks, and whether they are those of the class.
@@ -205,7 +209,7 @@ impl Evidence {
             _ => None,
         };
         let says = if silent { "no voltage".to_owned() } else { parts.join(", ") };
-        Self::new(Source::Spectrum, agrees, format!("spectrum: {says}"))
+        Self::new(EvidenceSource::Spectrum, agrees, format!("spectrum: {says}"))
     }
 }
 

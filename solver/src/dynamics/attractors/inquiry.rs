@@ -4,7 +4,7 @@
 //! On a periodic motion, exponent and spectrum are those of the motion itself, started on it, so that nothing of the
 //! transient is in them; were it unstable after all, it would be left.
 
-use super::evidence::{Evidence, Source};
+use super::evidence::{Evidence, EvidenceSource};
 use super::lyapunov::{Exponent, Lyapunov, Progress, Sign};
 use super::motion::{Cell, Motion, Reached, Undecided};
 use super::rotation::{Rotation, rotation};
@@ -214,7 +214,7 @@ impl Findings<'_> {
         let gap = system.equilibrium.gap;
         let rotation = self.rotation();
         let rests_on = self.evidence(rotation, others);
-        let disagreeing: Vec<Source> =
+        let disagreeing: Vec<EvidenceSource> =
             rests_on.iter().filter(|piece| piece.agrees == Some(false)).map(|piece| piece.source).collect();
         let motion = if others.beside.len() > 1 {
             Motion::Undecided { why: Undecided::DependsOnRounding }

@@ -10,7 +10,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::spectrum::Line;
+use super::spectrum::SpectralLine;
 
 /// How far a nonlinear vibration may be from the linear eigenfrequency it belongs to, relative.
 pub const SHIFT: f64 = 0.02;
@@ -162,7 +162,7 @@ impl Frequencies {
 
     /// The periods n of the motion that a torus lies about: the smallest denominator of the strongest of `lines` that is a
     /// multiple of omega / n and none of omega, or 1 where no strong one is.
-    pub fn torus_denominator(&self, lines: &[Line]) -> u32 {
+    pub fn torus_denominator(&self, lines: &[SpectralLine]) -> u32 {
         let strongest = lines.first().map_or(0.0, |line| line.amplitude);
         let strong = lines.iter().take_while(|line| line.amplitude >= STRONG * strongest);
         let fractions = strong.filter_map(|line| self.excitation_label(line.omega));
@@ -200,8 +200,8 @@ impl Frequencies {
     /// multiples of omega / denominator, the one whose combinations with it explain most of them, and in the simplest way.
     ///
     /// Any of the frequencies nu + k omega / denominator would do; which one is found depends on the strengths.
-    pub fn basic(&self, lines: &[Line], denominator: u32) -> Option<f64> {
-        let free: Vec<&Line> =
+    pub fn basic(&self, lines: &[SpectralLine], denominator: u32) -> Option<f64> {
+        let free: Vec<&SpectralLine> =
             lines.iter().filter(|line| self.multiple(line.omega, denominator).is_none()).collect();
         let cost = |basic: f64| -> f64 {
             let weights = free.iter().map(|line| {

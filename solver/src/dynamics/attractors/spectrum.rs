@@ -55,7 +55,7 @@ pub(super) fn fourier_transform(length: usize) -> Arc<dyn Fft<f64>> {
 
 /// A line of a spectrum.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
-pub struct Line {
+pub struct SpectralLine {
     /// Angular frequency (dimensionless).
     pub omega: f64,
     /// Amplitude: of a sin(omega t) it is a (in the unit of the signal).
@@ -121,13 +121,13 @@ impl Spectrum {
     /// The lines whose amplitude is at least `threshold` times the largest, by descending amplitude.
     ///
     /// A line is a bin higher than its neighbours and than what stronger lines leak there.
-    pub fn lines(&self, threshold: f64) -> Vec<Line> {
+    pub fn lines(&self, threshold: f64) -> Vec<SpectralLine> {
         let a = &self.amplitudes;
         let mut bins: Vec<usize> =
             (1..a.len().saturating_sub(1)).filter(|&k| a[k] > a[k - 1] && a[k] >= a[k + 1]).collect();
         bins.sort_by(|j, k| a[*k].total_cmp(&a[*j]));
         let least = bins.first().map_or(0.0, |k| threshold * a[*k]);
-        let mut lines: Vec<Line> = Vec::new();
+        let mut lines: Vec<SpectralLine> = Vec::new();
         for k in bins.into_iter().take_while(|k| a[*k] >= least && a[*k] > 0.0) {
             let leaked: f64 =
                 lines.iter().map(|line| leakage(line, k as f64 * self.spacing, self.spacing)).sum();
@@ -140,13 +140,13 @@ impl Spectrum {
     }
 
     /// The line at the local maximum `k`.
-    fn interpolate(&self, k: usize) -> Line {
+    fn interpolate(&self, k: usize) -> SpectralLine {
         let a = &self.amplitudes;
         let (neighbour, side) = if a[k + 1] > a[k - 1] { (a[k + 1], 1.0) } else { (a[k - 1], -1.0) };
         let ratio = neighbour / a[k];
         let offset = ((2.0 * ratio - 1.0) / (ratio + 1.0)).clamp(-0.5, 0.5);
         let shape = if offset == 0.0 { 1.0 } else { (PI * offset).sin() / (PI * offset) };
-        Line {
+        SpectralLine {
             omega: (k as f64 + side * offset) * self.spacing,
             amplitude: a[k] * (1.0 - offset * offset) / shape,
         }
@@ -173,7 +173,7 @@ impl Spectrum {
 }
 
 /// Upper bound on what `line` leaks to the frequency `omega`.
-fn leakage(line: &Line, omega: f64, spacing: f64) -> f64 {
+fn leakage(line: &SpectralLine, omega: f64, spacing: f64) -> f64 {
     let distance = (line.omega - omega).abs() / spacing;
     if distance <= 1.5 {
         line.amplitude

@@ -79,7 +79,7 @@ pub struct SweepPoint {
 
 /// What is swept, and how.
 #[derive(Debug, Clone, Copy)]
-pub struct Course<'a> {
+pub struct SweepCourse<'a> {
     /// Everything that does not change.
     pub set: &'a ParameterSet,
     /// Modes and force law.
@@ -100,11 +100,11 @@ pub struct Course<'a> {
 /// # Errors
 /// [`SweepError`] when a value is out of range or its motion cannot be resolved.
 pub fn sweep(
-    course: Course<'_>,
+    course: SweepCourse<'_>,
     values: &[f64],
     state: Option<&[f64]>,
 ) -> Result<(Vec<SweepPoint>, Option<Vec<f64>>), SweepError> {
-    let Course { set, model, parameter, shaking, start, dwell } = course;
+    let SweepCourse { set, model, parameter, shaking, start, dwell } = course;
     let mut carried = state.map(<[f64]>::to_vec);
     let mut points = Vec::with_capacity(values.len());
     for value in values {

@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
-use super::evidence::{Evidence, Source, short};
+use super::evidence::{Evidence, EvidenceSource, short};
 use super::lyapunov::Exponent;
 use super::motion::Motion;
 use super::rotation::Rotation;
@@ -248,7 +248,7 @@ pub struct Verdict {
     /// What the class rests on.
     pub rests_on: Vec<Evidence>,
     /// The pieces of evidence that contradict it.
-    pub disagreeing: Vec<Source>,
+    pub disagreeing: Vec<EvidenceSource>,
     /// Other attracting motions met at the same parameters. Few other starts are tried: there may be more.
     pub coexists: Vec<Coexisting>,
     /// What to know before relying on it.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::motion::Motion;
 use super::spectral_label::{Frequencies, Label};
-use super::spectrum::{Line, Spectrum, SpectrumError};
+use super::spectrum::{SpectralLine, Spectrum, SpectrumError};
 use crate::dynamics::integration::{IntegrationError, Outcome, Settings, Trajectory};
 use crate::model::ReducedSystem;
 use crate::theory::spectrum::eigenvalues;
@@ -125,8 +125,8 @@ impl VoltageSpectrum {
             }
         };
         let torus = if motion == Motion::Quasiperiodic { basic } else { None };
-        let peak = |line: &Line| {
-            let Line { omega, amplitude } = *line;
+        let peak = |line: &SpectralLine| {
+            let SpectralLine { omega, amplitude } = *line;
             match torus {
                 Some(basic) => {
                     let multiple = frequencies.multiple(omega, denominator);

@@ -116,7 +116,7 @@ pub fn critical_excitation(
 ) -> Result<CriticalExcitation, OrbitError> {
     let system = system.with_excitation(0.0, omega)?;
     let asked = only.map_or(Asked::Any, Asked::Kind);
-    Ok(Survey::of(&mut OrbitSolver::new(&system), limit, asked)?.critical())
+    Ok(ForcedSurvey::of(&mut OrbitSolver::new(&system), limit, asked)?.critical())
 }
 
 /// The lowest beta up to `limit` at which the forced motion of `system` at frequency `omega` is unstable by `resonance`,
@@ -138,7 +138,8 @@ pub fn resonance_boundary(
     let system = system.with_excitation(0.0, omega)?;
     let nearest = is_nearest(&system, omega, resonance);
     let asked = if nearest { Asked::Kind(resonance.instability()) } else { Asked::Nothing };
-    let Survey { found, first, ends, .. } = Survey::of(&mut OrbitSolver::new(&system), limit, asked)?;
+    let ForcedSurvey { found, first, ends, .. } =
+        ForcedSurvey::of(&mut OrbitSolver::new(&system), limit, asked)?;
     Ok(ResonanceBoundary { beta: found.map(|(loss, _)| loss.beta), first, ends })
 }
 
@@ -196,7 +197,7 @@ pub(super) enum Asked {
 
 /// What is known of the forced motion up to the loss of stability asked for, or to the limit.
 #[derive(Debug)]
-pub(super) struct Survey {
+pub(super) struct ForcedSurvey {
     /// What was asked for, and the orbit there.
     pub(super) found: Option<(Loss, Forced)>,
     /// The first loss of any kind.
@@ -263,7 +264,7 @@ impl Station {
     }
 }
 
-impl Survey {
+impl ForcedSurvey {
     /// The march and what it finds, of the system and omega of `solver`.
     pub(super) fn of(solver: &mut OrbitSolver, limit: f64, asked: Asked) -> Result<Self, OrbitError> {
         let mut march = March::from_rest(solver)?;

@@ -1,7 +1,7 @@
 //! The forced motion, the one that grows out of rest as beta grows from 0, at a system's own excitation: its orbit, its
 //! multipliers, and the beta from which it is unstable.
 
-use super::boundary::{Asked, CriticalExcitation, Survey};
+use super::boundary::{Asked, CriticalExcitation, ForcedSurvey};
 use crate::dynamics::orbits::{Orbit, OrbitError, OrbitSolver};
 use crate::model::ReducedSystem;
 
@@ -24,7 +24,7 @@ impl ForcedMotion {
     pub fn of(system: &ReducedSystem) -> Result<Self, OrbitError> {
         let beta = system.parameters.beta;
         let mut solver = OrbitSolver::new(system);
-        let survey = Survey::of(&mut solver, beta, Asked::Any)?;
+        let survey = ForcedSurvey::of(&mut solver, beta, Asked::Any)?;
         let critical = survey.critical();
         let there = match critical {
             CriticalExcitation::Ends { .. } => None,

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::boundary::{Asked, Survey};
+use super::boundary::{Asked, ForcedSurvey};
 use super::curves::{Curve, CurveEnd, SpecialKind, Start, trace_curve};
 use super::plane::{Axis, Plane};
 use crate::dynamics::orbits::{Instability, OrbitError, OrbitSolver};
@@ -89,7 +89,7 @@ pub fn trace_tongue(
     let centre = CoupledModes::new(system)?.frequency(resonance);
     let system = system.with_excitation(0.0, centre)?;
     let asked = Asked::Kind(resonance.instability());
-    let survey = Survey::of(&mut OrbitSolver::new(&system), window.limit, asked)?;
+    let survey = ForcedSurvey::of(&mut OrbitSolver::new(&system), window.limit, asked)?;
     let Some((loss, orbit)) = survey.found else { return Ok(None) };
     let start = Start { kind: loss.instability, periods: 1, at: [centre, loss.beta], state: orbit.state };
     let (lowest, highest) = Parameter::Omega.range();

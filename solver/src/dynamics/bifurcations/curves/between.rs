@@ -11,14 +11,14 @@ const DISTRUST: f64 = 0.5;
 
 /// A function between two stations, from 0 to 1: a cubic by its values and slopes, and how wrong that may be.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Course {
+pub(super) struct TestCourse {
     start: (f64, f64),
     end: (f64, f64),
     /// Bound on the error in the middle; at the ends there is none.
     error: f64,
 }
 
-impl Course {
+impl TestCourse {
     /// The course of the test for `kind` between two stations, the one `before` being known. `None` where one of the two
     /// has no such test.
     pub(super) fn of(
@@ -119,9 +119,9 @@ mod tests {
     use super::*;
 
     /// The course of `f` between 0 and 1 by its values and slopes.
-    fn course(f: impl Fn(f64) -> f64) -> Course {
+    fn course(f: impl Fn(f64) -> f64) -> TestCourse {
         let slope = |t: f64| (f(t + 1e-6) - f(t - 1e-6)) / 2e-6;
-        Course::known((f(0.0), slope(0.0)), (f(1.0), slope(1.0)))
+        TestCourse::known((f(0.0), slope(0.0)), (f(1.0), slope(1.0)))
     }
 
     #[test]
@@ -150,12 +150,14 @@ mod tests {
     fn parabolas_follow_from_a_mean_and_from_an_earlier_value() {
         let f = |t: f64| 0.7 - 1.3 * t + 2.1 * t * t;
         let mean = 0.7 - 0.65 + 0.7;
-        for course in [Course::with_mean(f(0.0), f(1.0), mean), Course::after(f(0.0), f(1.0), f(-0.4), 0.4)] {
+        for course in
+            [TestCourse::with_mean(f(0.0), f(1.0), mean), TestCourse::after(f(0.0), f(1.0), f(-0.4), 0.4)]
+        {
             for t in [0.0, 0.3, 0.8] {
                 assert!((course.at(t) - f(t)).abs() < 1e-12, "{t}");
             }
         }
-        let crossing = Course::with_mean(1.0, -2.0, -0.5);
+        let crossing = TestCourse::with_mean(1.0, -2.0, -0.5);
         assert!((crossing.zero() - 1.0 / 3.0).abs() < 1e-9);
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DVector};
 
-use super::between::Course;
+use super::between::TestCourse;
 use super::curve::SpecialKind;
 use super::station::{Station, cubic};
 use super::surface::Surface;
@@ -98,8 +98,8 @@ pub(super) fn specials(
     let halved = here.halving.as_ref().is_some_and(|halving| halving.norm() < HALF_APART);
     let passed_over = |kind: SpecialKind| leaves && ends(here, kind) || halved && kind == SpecialKind::Cusp;
     let kinds = SpecialKind::ALL.into_iter().filter(|kind| !passed_over(*kind));
-    let courses: Vec<(SpecialKind, Course)> =
-        kinds.filter_map(|kind| Some((kind, Course::of(kind, before, here, next)?))).collect();
+    let courses: Vec<(SpecialKind, TestCourse)> =
+        kinds.filter_map(|kind| Some((kind, TestCourse::of(kind, before, here, next)?))).collect();
     let doubt = courses.iter().find_map(|(_, course)| course.doubt());
     if let Some(fraction) = doubt
         && let Some(found) = divided(surface, before, here, next, &[fraction], depth)
