@@ -9,7 +9,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::curve::{Curve, SpecialKind, SpecialPoint, Start};
+use super::curve::{Curve, Start};
 use super::known::KnownCurves;
 use super::tracer::trace_curve;
 use crate::dynamics::bifurcations::branch::{Branch, Course};
@@ -176,27 +176,6 @@ fn trace_all(
             }
             Err(error) => failures.push(error),
         }
-    }
-}
-
-impl Curve {
-    /// Starts of the curves of other kinds that pass, or end in, this one's points of codimension two.
-    pub fn branches(&self) -> Vec<Start> {
-        self.special.iter().filter_map(|point| self.branch(point)).collect()
-    }
-
-    fn branch(&self, point: &SpecialPoint) -> Option<Start> {
-        use Instability::{Fold, NeimarkSacker, PeriodDoubling};
-        let either = |a: Instability, b: Instability| if self.kind == a { b } else { a };
-        let kind = match point.kind {
-            SpecialKind::OneToOne => either(Fold, NeimarkSacker),
-            SpecialKind::OneToTwo => either(PeriodDoubling, NeimarkSacker),
-            SpecialKind::FoldFlip => either(Fold, PeriodDoubling),
-            SpecialKind::FoldNeimarkSacker => either(Fold, NeimarkSacker),
-            SpecialKind::FlipNeimarkSacker => either(PeriodDoubling, NeimarkSacker),
-            _ => return None,
-        };
-        Some(Start { kind, periods: self.periods, at: point.at, state: point.state.clone() })
     }
 }
 
