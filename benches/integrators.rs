@@ -9,7 +9,7 @@ use std::time::Instant;
 use by_hand::ByHand;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use divan::{Bencher, black_box};
-use harvester_lab::dynamics::rk4::{PAPER_STEPS_PER_PERIOD, RungeKutta4};
+use harvester_lab::dynamics::integration::rk4::{PAPER_STEPS_PER_PERIOD, RungeKutta4};
 use harvester_lab::dynamics::{Collocation, Settings, Trajectory};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use by_hand::ByHand;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
-use harvester_lab::dynamics::motion::Undecided;
+use harvester_lab::dynamics::attractors::motion::Undecided;
 use harvester_lab::dynamics::{ESCAPE_DISPLACEMENT, Motion, Verdict};
 use harvester_lab::model::{ForceLaw, ModelChoice, ParameterSet, ReducedSystem};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};

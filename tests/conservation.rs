@@ -1,6 +1,6 @@
 //! Exact facts every solution must keep: the energy balance, Liouville's formula, decoupling, the linear limit.
 
-use harvester_lab::dynamics::rk4::RungeKutta4;
+use harvester_lab::dynamics::integration::rk4::RungeKutta4;
 use harvester_lab::dynamics::{Outcome, Settings, Trajectory};
 use harvester_lab::model::energy::{energy, powers};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};

@@ -1,6 +1,6 @@
 //! The Floquet boundaries against an independent program, the coupled-mode theory and each other.
 
-use harvester_lab::dynamics::tongue::{FlankEnd, Window};
+use harvester_lab::dynamics::bifurcations::tongue::{FlankEnd, Window};
 use harvester_lab::dynamics::{
     Course, CriticalExcitation, Instability, Orbit, critical_excitation, follow_branch, largest_multipliers,
     trace_tongue,

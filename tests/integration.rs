@@ -1,6 +1,7 @@
 //! The two end states the paper's own runs lead to, by its method and by ours.
 
-use harvester_lab::dynamics::{Settings, Trajectory, rk4::RungeKutta4};
+use harvester_lab::dynamics::integration::rk4::RungeKutta4;
+use harvester_lab::dynamics::{Settings, Trajectory};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 
 const FIGURE_3: [f64; 5] = [-1.521630082e-3, 2.841270618e-3, 7.724208224e-3, -1.957999388e-2, 2.449883949];

@@ -1,7 +1,7 @@
 //! The collocation against the classical method in small steps, against itself at tighter tolerance, and at the
 //! ends a run can have.
 
-use harvester_lab::dynamics::rk4::RungeKutta4;
+use harvester_lab::dynamics::integration::rk4::RungeKutta4;
 use harvester_lab::dynamics::{IntegrationError, Outcome, Settings, Trajectory};
 use harvester_lab::jobs::solve;
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};

@@ -2,8 +2,8 @@
 
 #![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
 
-use harvester_lab::dynamics::lyapunov::{LEAST_PERIODS, Progress, Sign};
-use harvester_lab::dynamics::rk4::RungeKutta4;
+use harvester_lab::dynamics::attractors::lyapunov::{LEAST_PERIODS, Progress, Sign};
+use harvester_lab::dynamics::integration::rk4::RungeKutta4;
 use harvester_lab::dynamics::{Effort, Exponent, Lyapunov, Orbit, Outcome, Settings, Trajectory, reach};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 

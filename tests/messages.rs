@@ -1,8 +1,8 @@
 //! What page and workers send each other arrives as it was sent.
 
-use harvester_lab::dynamics::curves::Line;
-use harvester_lab::dynamics::sweep::Dwell;
-use harvester_lab::dynamics::tongue::Window;
+use harvester_lab::dynamics::attractors::sweep::Dwell;
+use harvester_lab::dynamics::bifurcations::curves::Line;
+use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{Axis, Plane};
 use harvester_lab::jobs::design::work::DesignWork;
 use harvester_lab::jobs::work::{Finding, Work};

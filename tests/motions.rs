@@ -2,7 +2,7 @@
 
 #![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
 
-use harvester_lab::dynamics::motion::{Reached, Undecided};
+use harvester_lab::dynamics::attractors::motion::{Reached, Undecided};
 use harvester_lab::dynamics::{Effort, Motion, Orbit, Settings, Trajectory, critical_excitation, reach};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 

@@ -29,7 +29,7 @@ fn refused(scaling: ElectricalScaling, holds_acceleration: bool) -> Vec<String> 
     let mut refused = Vec::new();
     for (dimension, value) in TYPED {
         let mut changed = device;
-        *dimension.get_mut(&mut changed) = value;
+        *changed.get_mut(dimension) = value;
         if holds_acceleration {
             changed = changed.with_acceleration(acceleration);
         }

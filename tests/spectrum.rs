@@ -4,10 +4,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use harvester_lab::dynamics::motion::Motion;
-use harvester_lab::dynamics::rk4::RungeKutta4;
-use harvester_lab::dynamics::spectral_label::{Frequencies, Label};
-use harvester_lab::dynamics::spectrum::{Spectrum, SpectrumError};
+use harvester_lab::dynamics::attractors::motion::Motion;
+use harvester_lab::dynamics::attractors::spectral_label::{Frequencies, Label};
+use harvester_lab::dynamics::attractors::spectrum::{Spectrum, SpectrumError};
+use harvester_lab::dynamics::integration::rk4::RungeKutta4;
 use harvester_lab::dynamics::{Effort, VoltageSpectrum, reach};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 use nalgebra::Complex;
@@ -195,7 +195,7 @@ fn a_dying_transient_leaves_its_own_frequencies() -> TestResult {
     let found = VoltageSpectrum::of(
         &system,
         &[1e-5, 0.0, 0.0, 0.0, 0.0],
-        Motion::Undecided { why: harvester_lab::dynamics::motion::Undecided::TransientNotGone },
+        Motion::Undecided { why: harvester_lab::dynamics::attractors::motion::Undecided::TransientNotGone },
     )?;
     let names: Vec<String> =
         found.peaks.iter().filter_map(|peak| peak.label.map(|label| label.to_string())).collect();

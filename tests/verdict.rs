@@ -2,9 +2,9 @@
 
 #![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
 
-use harvester_lab::dynamics::evidence::Source;
-use harvester_lab::dynamics::rk4::RungeKutta4;
-use harvester_lab::dynamics::verdict::{OtherStart, Warning, force_law_warning};
+use harvester_lab::dynamics::attractors::evidence::EvidenceSource;
+use harvester_lab::dynamics::attractors::verdict::{OtherStart, Warning, force_law_warning};
+use harvester_lab::dynamics::integration::rk4::RungeKutta4;
 use harvester_lab::dynamics::{ForcedMotion, Instability, Motion, Orbit, Verdict, largest_multipliers};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 
@@ -25,7 +25,7 @@ fn strong(omega: f64) -> Answer<ReducedSystem> {
     system(1e-4, 1e-2, omega, ForceLaw::Quadratic)
 }
 
-fn sources(verdict: &Verdict) -> Vec<Source> {
+fn sources(verdict: &Verdict) -> Vec<EvidenceSource> {
     assert!(verdict.rests_on.iter().all(|piece| piece.agrees != Some(false)), "{:?}", verdict.rests_on);
     assert!(verdict.disagreeing.is_empty() && verdict.motion == verdict.suspected);
     verdict.rests_on.iter().filter(|piece| piece.agrees == Some(true)).map(|piece| piece.source).collect()
@@ -52,7 +52,10 @@ fn figure_3_is_the_stable_forced_motion() -> TestResult {
     let verdict = Verdict::of(&system(1e-3, 1e-3, 25.0, ForceLaw::Quadratic)?, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, PERIOD_1);
     // The run ends as soon as it is in the motion's reach, while its points still settle.
-    assert_eq!(sources(&verdict), [Source::Multipliers, Source::Exponent, Source::Spectrum]);
+    assert_eq!(
+        sources(&verdict),
+        [EvidenceSource::Multipliers, EvidenceSource::Exponent, EvidenceSource::Spectrum]
+    );
     let forced = verdict.forced.ok_or("forced")?;
     assert!(forced.stable && (forced.multiplier.modulus - 0.996743).abs() < 1e-6, "{forced:?}");
     assert!(verdict.multiplier.is_some_and(|multiplier| (multiplier.modulus - 0.996743).abs() < 1e-6));
@@ -86,12 +89,12 @@ fn figure_4_is_a_torus_and_says_what_coexists() -> TestResult {
     assert_eq!(
         sources(&verdict),
         [
-            Source::Recurrence,
-            Source::Points,
-            Source::Rotation,
-            Source::ZeroOne,
-            Source::Exponent,
-            Source::Spectrum
+            EvidenceSource::Recurrence,
+            EvidenceSource::Points,
+            EvidenceSource::Rotation,
+            EvidenceSource::ZeroOne,
+            EvidenceSource::Exponent,
+            EvidenceSource::Spectrum
         ]
     );
     let forced = verdict.forced.ok_or("forced")?;
@@ -116,7 +119,10 @@ fn figure_9_has_period_2_where_the_forced_motion_has_doubled() -> TestResult {
     let verdict = Verdict::of(&strong(2.0 * OMEGA_1)?, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, Motion::Periodic { periods: 2 });
     // The run ends as soon as it is in the motion's reach, while its points still settle.
-    assert_eq!(sources(&verdict), [Source::Multipliers, Source::Exponent, Source::Spectrum]);
+    assert_eq!(
+        sources(&verdict),
+        [EvidenceSource::Multipliers, EvidenceSource::Exponent, EvidenceSource::Spectrum]
+    );
     let forced = verdict.forced.ok_or("forced")?;
     assert!((forced.multiplier.re + 1.148382).abs() < 1e-6, "{forced:?}");
     assert_eq!((forced.stable, forced.instability), (false, Some(Instability::PeriodDoubling)));
@@ -143,7 +149,7 @@ fn figure_9_has_period_2_where_the_forced_motion_has_doubled() -> TestResult {
 fn figure_12_escapes_beside_a_stable_forced_motion() -> TestResult {
     let verdict = Verdict::of(&strong(2.0 * OMEGA_2)?, &[0.0; 5], 600.0)?;
     assert!(matches!(verdict.motion, Motion::Escape { time } if (time - 1.14).abs() < 0.01));
-    assert_eq!(sources(&verdict), [Source::Run]);
+    assert_eq!(sources(&verdict), [EvidenceSource::Run]);
     assert_eq!((verdict.v_rms, verdict.exponent, verdict.tip_over_gap), (None, None, None));
     assert!(verdict.forced.is_some_and(|forced| (forced.multiplier.modulus - 0.998852).abs() < 1e-6));
     assert_eq!(verdict.coexists.len(), 1);
@@ -158,7 +164,15 @@ fn figure_12_escapes_beside_a_stable_forced_motion() -> TestResult {
 fn chaos_rests_on_its_exponent_and_its_spectrum() -> TestResult {
     let verdict = Verdict::of(&system(1e-4, 0.05, 11.0, ForceLaw::Exact)?, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, Motion::Chaotic);
-    assert_eq!(sources(&verdict), [Source::Recurrence, Source::ZeroOne, Source::Exponent, Source::Spectrum]);
+    assert_eq!(
+        sources(&verdict),
+        [
+            EvidenceSource::Recurrence,
+            EvidenceSource::ZeroOne,
+            EvidenceSource::Exponent,
+            EvidenceSource::Spectrum
+        ]
+    );
     assert!(verdict.warnings.iter().any(|warning| matches!(warning, Warning::LargeDeflection { .. })));
     Ok(())
 }

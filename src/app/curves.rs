@@ -114,7 +114,7 @@ impl Curves {
         let points = &run.strobe;
         // The start belongs to the time history; the map shows where the points go.
         let (first, split) = (points.len() / 10, points.len() * 3 / 4);
-        let convert = |range: &[crate::dynamics::poincare::PhasePoint]| {
+        let convert = |range: &[crate::dynamics::attractors::poincare::PhasePoint]| {
             range.iter().map(|point| PlotPoint::new(point.v, point.dv_dt)).collect()
         };
         if run.outcome() == Outcome::Completed {

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::verdict::VerdictError;
+use crate::dynamics::attractors::verdict::VerdictError;
 use crate::dynamics::{Inquiry, Orbit, Verdict};
 use crate::model::ModelError;
 use crate::scenario::Scenario;
@@ -90,7 +90,7 @@ pub enum InspectionError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::motion::Motion;
+    use crate::dynamics::attractors::motion::Motion;
     use crate::model::ParameterSet;
 
     #[test]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::signature::Signature;
+use crate::dynamics::attractors::signature::Signature;
 use crate::dynamics::{ESCAPE_DISPLACEMENT, Effort, IntegrationError, Settler, reach};
 use crate::jobs::response::check_range;
 use crate::model::{Dimension, ModelError, Parameter, ReducedSystem, state_dimension};
@@ -64,7 +64,7 @@ impl Coordinate {
     pub fn value(self, scenario: &Scenario) -> Option<f64> {
         match self {
             Self::Parameter(parameter) => Some(parameter.get(&scenario.parameters)),
-            Self::Dimension(dimension) => scenario.device().ok().map(|device| dimension.get(&device)),
+            Self::Dimension(dimension) => scenario.device().ok().map(|device| device.get(dimension)),
             Self::Start(i) => scenario.initial.as_ref().map_or(Some(0.0), |start| start.get(i).copied()),
         }
     }
@@ -115,7 +115,7 @@ pub fn at_place(
             Coordinate::Parameter(parameter) => *parameter.get_mut(&mut scenario.parameters) = *value,
             Coordinate::Dimension(dimension) => {
                 let mut device = scenario.device()?;
-                *dimension.get_mut(&mut device) = *value;
+                *device.get_mut(dimension) = *value;
                 scenario.set_device(device, scenario.scaling)?;
             }
             Coordinate::Start(i) => {

@@ -19,7 +19,7 @@ use super::tasks::orbit::OrbitRequest;
 use super::tasks::simulate::SimulateRequest;
 use super::tasks::sweep::SweepRequest;
 use super::tasks::verdict::VerdictRequest;
-use crate::dynamics::verdict::VerdictError;
+use crate::dynamics::attractors::verdict::VerdictError;
 use crate::dynamics::{IntegrationError, OrbitError};
 use crate::model::{ModelError, Parameter};
 use crate::theory::TheoryError;

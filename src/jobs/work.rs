@@ -7,10 +7,10 @@ use super::design::{DesignFinding, DesignWork};
 use super::inspection::{Inspection, inspect};
 use super::motions::MotionPlane;
 use super::response::{ResponseCurve, response};
-use crate::dynamics::curves::{Curve, Line, Start, bifurcations_along_line, trace_curve};
-use crate::dynamics::signature::Signature;
-use crate::dynamics::sweep::{Course, Dwell, SweepPoint, sweep};
-use crate::dynamics::tongue::{Tongue, Window};
+use crate::dynamics::attractors::signature::Signature;
+use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
+use crate::dynamics::bifurcations::curves::{Curve, Line, Start, bifurcations_along_line, trace_curve};
+use crate::dynamics::bifurcations::tongue::{Tongue, Window};
 use crate::dynamics::{Plane, largest_multipliers, trace_tongue};
 use crate::model::{Parameter, Shaking};
 use crate::scenario::Scenario;
@@ -166,7 +166,7 @@ impl Work {
             }
             Self::Sweep { scenario, parameter, shaking, values, state, dwell } => {
                 let (_, start) = scenario.validate().map_err(sentence)?;
-                let course = Course {
+                let course = SweepCourse {
                     set: &scenario.parameters,
                     model: scenario.model,
                     parameter: *parameter,

@@ -1,6 +1,6 @@
 //! The places of the curves against an independent program, and against searches along one parameter.
 
-use harvester_lab::dynamics::curves::{Curve, CurveEnd, Search, SpecialKind, find_curves};
+use harvester_lab::dynamics::bifurcations::curves::{Curve, CurveEnd, Search, SpecialKind, find_curves};
 use harvester_lab::dynamics::{Course, Instability, Orbit, critical_excitation, follow_branch};
 use harvester_lab::model::{ForceLaw, Magnet, Parameter, ParameterSet, Parameters, ReducedSystem, Shaking};
 

@@ -1,10 +1,10 @@
 //! Points of codimension two: their multipliers, the curves that meet in them, the branches on either side.
 
-use harvester_lab::dynamics::curves::{
+use harvester_lab::dynamics::bifurcations::curves::{
     Criticality, Curve, CurveEnd, CurvePoint, Line, SpecialKind, SpecialPoint, Start,
     bifurcations_along_line, trace_curve,
 };
-use harvester_lab::dynamics::floquet::multipliers;
+use harvester_lab::dynamics::orbits::floquet::multipliers;
 use harvester_lab::dynamics::{
     Course, Instability, Orbit, OrbitError, PeriodMap, Plane, follow_branch, follow_doubled,
 };

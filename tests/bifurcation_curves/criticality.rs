@@ -3,7 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use harvester_lab::dynamics::curves::{Criticality, Curve, CurvePoint, SpecialKind, Start, trace_curve};
+use harvester_lab::dynamics::bifurcations::curves::{
+    Criticality, Curve, CurvePoint, SpecialKind, Start, trace_curve,
+};
 use harvester_lab::dynamics::{Branch, Course, Instability, Orbit, PeriodMap, follow_branch, follow_doubled};
 use harvester_lab::model::{ForceLaw, Parameter, ReducedSystem, Shaking};
 use nalgebra::{Complex, DMatrix, DVector};

@@ -1,6 +1,6 @@
 //! The search in pieces, as several workers do it.
 
-use harvester_lab::dynamics::curves::{
+use harvester_lab::dynamics::bifurcations::curves::{
     Search, Start, bifurcations_along_line, find_curves, search_lines, trace_curve,
 };
 use harvester_lab::dynamics::{Instability, Orbit, OrbitError, Plane};

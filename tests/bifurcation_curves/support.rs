@@ -1,6 +1,6 @@
 //! Devices, windows and the curves in them.
 
-use harvester_lab::dynamics::curves::{Curve, Search, SpecialKind, SpecialPoint, find_curves};
+use harvester_lab::dynamics::bifurcations::curves::{Curve, Search, SpecialKind, SpecialPoint, find_curves};
 use harvester_lab::dynamics::{Axis, Instability, Plane};
 use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, Parameters, ReducedSystem};
 

@@ -3,8 +3,8 @@
 mod search;
 mod within_limits;
 
-use harvester_lab::dynamics::sweep::Dwell;
-use harvester_lab::dynamics::tongue::Window;
+use harvester_lab::dynamics::attractors::sweep::Dwell;
+use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{Motion, critical_excitation};
 use harvester_lab::jobs::design::band::{half_power, total, usable};
 use harvester_lab::jobs::design::load::{best, best_frequency};

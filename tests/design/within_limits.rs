@@ -1,7 +1,7 @@
 //! Bands and loads that keep the limits.
 
 use harvester_lab::dynamics::Instability;
-use harvester_lab::dynamics::sweep::{Course, Dwell, sweep};
+use harvester_lab::dynamics::attractors::sweep::{Dwell, SweepCourse, sweep};
 use harvester_lab::jobs::design::band::usable;
 use harvester_lab::jobs::design::point::powers;
 use harvester_lab::jobs::design::{Asked, Bounds, Plant, operating};
@@ -111,7 +111,7 @@ fn the_best_frequency_within_limits_is_where_the_limit_is_met() -> TestResult {
     let dwell = Dwell { discarded: 300, kept: 32 };
     let (parameter, shaking) = (Parameter::Omega, Shaking::Amplitude);
     let (set, model) = (&scenario.parameters, scenario.model);
-    let course = Course { set, model, parameter, shaking, start: &[0.0; 5], dwell };
+    let course = SweepCourse { set, model, parameter, shaking, start: &[0.0; 5], dwell };
     let (points, _) = sweep(course, &values, None)?;
     let last = points.last().ok_or("a sweep")?;
     let power = scenario.units().watts(last.power);

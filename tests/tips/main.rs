@@ -3,8 +3,8 @@
 
 mod truth;
 
-use harvester_lab::dynamics::sweep::{Course, Dwell, SweepPoint, sweep};
-use harvester_lab::dynamics::tongue::Window;
+use harvester_lab::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
+use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{Collocation, Settings, Verdict, trace_tongue};
 use harvester_lab::model::{ForceLaw, ModelChoice, Parameter, ParameterSet, ReducedSystem, Shaking};
 use harvester_lab::theory::Resonance;
@@ -86,7 +86,7 @@ fn points(seed: u64, each: usize) -> Vec<(ParameterSet, ModelChoice)> {
 
 /// The motion that a sweep of two values reaches at the first.
 fn swept(set: &ParameterSet, model: ModelChoice, system: &ReducedSystem) -> SweepPoint {
-    let course = Course {
+    let course = SweepCourse {
         set,
         model,
         parameter: Parameter::Beta,

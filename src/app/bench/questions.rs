@@ -6,8 +6,8 @@ use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::view::design::{Aim, Side};
 use crate::app::widgets::number::round_significant;
-use crate::dynamics::sweep::Dwell;
-use crate::dynamics::tongue::Window as TongueWindow;
+use crate::dynamics::attractors::sweep::Dwell;
+use crate::dynamics::bifurcations::tongue::Window as TongueWindow;
 use crate::jobs::design::DesignWork;
 use crate::jobs::design::find::{FindQuestion, Objective, Variable};
 use crate::jobs::motions::{Coordinate, at_place};
@@ -132,7 +132,7 @@ pub(in crate::app) fn range_of(view: &View, session: &Session, side: &Side) -> (
     let (low, high) = side.range.unwrap_or_else(|| {
         let (usual_low, usual_high) = side.dimension.usual();
         let device = view.scenario.device().unwrap_or_default();
-        let value = side.dimension.get(&device);
+        let value = device.get(side.dimension);
         match side.dimension {
             Dimension::Frequency => {
                 let (low, high) = window(view, session);

@@ -8,7 +8,7 @@ use crate::app::questions;
 use crate::app::session::Session;
 use crate::app::view::design::{DesignView, Page};
 use crate::app::view::{Layer, Panel, Tab, View};
-use crate::dynamics::tongue::Window;
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::jobs::foreman::{Lane, Traffic};
 use crate::jobs::inspection::Inspection;
 use crate::jobs::response::ResponseCurve;

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::facts::Condition;
+use super::condition::Condition;
 use crate::app::text::language;
 
 /// A text by language; `**` begins and ends what is set in bold.

@@ -7,7 +7,7 @@ use crate::app::lessons::STEPS;
 use crate::app::view::View;
 use crate::app::view::design::{FREQUENCIES, POWERS};
 use crate::app::view::live::{KICKS, SPEEDS, WINDOWS};
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::attractors::sweep::Dwell;
 use crate::jobs::study::find::GENERATIONS;
 use crate::jobs::study::sweep::COUNTS;
 use crate::model::{Dimension, ForceLaw, MAX_MODES, Parameter};

@@ -19,7 +19,7 @@ use crate::app::widgets::{
 };
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
-use crate::dynamics::motion::{Cell, Motion};
+use crate::dynamics::attractors::motion::{Cell, Motion};
 use crate::jobs::study::Study as _;
 use crate::jobs::study::motion_chart::MotionChart;
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::attractors::sweep::Dwell;
 use crate::jobs::study::sweep::COUNTS;
 use crate::model::{ModelError, Parameter};
 

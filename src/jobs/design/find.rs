@@ -8,7 +8,7 @@ use super::harvest::{Lasting, lasting};
 use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
 use crate::dynamics::Motion;
-use crate::dynamics::tongue::Window;
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::jobs::motions::{Coordinate, at_place};
 use crate::model::limits::Standing;
 use crate::model::{Limits, ModelError};

@@ -7,7 +7,7 @@ use super::load::{BestFrequency, LoadPoint, best_frequency, forced_loads, reache
 use super::materials::{MaterialRow, material_row};
 use super::trust::{Quantity, TrustEntry, trust_entry};
 use super::{DesignError, HarvestPoint};
-use crate::dynamics::tongue::Window;
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::model::materials::Ceramic;
 use crate::model::{ForceLaw, Limits, Shaking};
 use crate::scenario::Scenario;

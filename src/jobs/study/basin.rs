@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Study;
 use super::motion_chart::{Coordinate, MotionChart, MotionQuestion};
-use crate::dynamics::motion::Cell;
-use crate::dynamics::signature::{Recogniser, Signature};
+use crate::dynamics::attractors::motion::Cell;
+use crate::dynamics::attractors::signature::{Recogniser, Signature};
 use crate::jobs::work::{Finding, Work};
 use crate::model::{ModelError, ReducedSystem};
 use crate::scenario::Scenario;

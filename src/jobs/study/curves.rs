@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Study;
-use crate::dynamics::curves::{Curve, KnownCurves, Line, Search, Start, search_lines};
+use crate::dynamics::bifurcations::curves::{Curve, KnownCurves, Line, Search, Start, search_lines};
 use crate::dynamics::{Axis, OrbitError, Plane};
 use crate::jobs::work::{Finding, Work};
 use crate::model::Parameter;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::Study;
 use super::sweep::{Direction, SweepQuestion, SweepStudy};
 use crate::dynamics::Motion;
-use crate::dynamics::sweep::{Dwell, SweepPoint};
+use crate::dynamics::attractors::sweep::{Dwell, SweepPoint};
 use crate::jobs::design::change::Way as ChangeWay;
 use crate::jobs::design::linear::{LinearCurve, linear_curve};
 use crate::jobs::design::{DesignError, DesignFinding, DesignWork, HarvestPoint, Plant};

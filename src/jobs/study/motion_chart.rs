@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Study;
 use super::mosaic::{Mosaic, Place};
-use crate::dynamics::motion::{Cell, Motion};
-use crate::dynamics::signature::Signature;
+use crate::dynamics::attractors::motion::{Cell, Motion};
+use crate::dynamics::attractors::signature::Signature;
 pub use crate::jobs::motions::Coordinate;
 use crate::jobs::motions::{MotionPlane, at_place};
 use crate::jobs::work::{Finding, Work};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Study;
-use crate::dynamics::sweep::{Dwell, SweepPoint};
+use crate::dynamics::attractors::sweep::{Dwell, SweepPoint};
 use crate::jobs::response::check_range;
 use crate::jobs::work::{Finding, Work};
 use crate::model::{ModelError, Parameter, Shaking};

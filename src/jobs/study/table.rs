@@ -1,7 +1,7 @@
 //! Pieces of work that do not depend on one another: the rows of a table.
 
 use super::Study;
-use crate::dynamics::tongue::Window;
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::jobs::design::materials::MaterialRow;
 use crate::jobs::design::trust::{Quantity, TrustEntry, places};
 use crate::jobs::design::{DesignFinding, DesignWork};

@@ -1,7 +1,7 @@
 //! The exact borders of the three tongues of a device.
 
 use super::Study;
-use crate::dynamics::tongue::{Tongue, Window};
+use crate::dynamics::bifurcations::tongue::{Tongue, Window};
 use crate::jobs::work::{Finding, Work};
 use crate::scenario::Scenario;
 use crate::theory::Resonance;

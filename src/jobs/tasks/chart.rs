@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Answer, Span, class, state};
-use crate::dynamics::motion::Cell;
+use crate::dynamics::attractors::motion::Cell;
 use crate::jobs::RequestError;
 use crate::jobs::budget::Budget;
 use crate::jobs::study::complete_within;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Answer, count, state};
-use crate::dynamics::period_map::MOST_PERIODS;
+use crate::dynamics::orbits::period_map::MOST_PERIODS;
 use crate::dynamics::{Instability, Orbit};
 use crate::jobs::RequestError;
 use crate::model::ParameterSet;

@@ -4,8 +4,8 @@ use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::{Answer, count};
-use crate::dynamics::collocation::Step;
-use crate::dynamics::rk4::{RungeKutta4, amplification};
+use crate::dynamics::integration::Step;
+use crate::dynamics::integration::rk4::{RungeKutta4, amplification};
 use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
 use crate::jobs::RequestError;
 use crate::jobs::budget::Budget;
@@ -52,7 +52,7 @@ impl Default for SimulateRequest {
             t_end: 600.0,
             initial: None,
             method: Method::Adaptive,
-            steps_per_period: crate::dynamics::rk4::PAPER_STEPS_PER_PERIOD,
+            steps_per_period: crate::dynamics::integration::rk4::PAPER_STEPS_PER_PERIOD,
             tolerance: Settings::default().tolerance,
             samples: 101,
         }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Answer, check_ends, count, state};
-use crate::dynamics::sweep::{Dwell, SweepPoint};
+use crate::dynamics::attractors::sweep::{Dwell, SweepPoint};
 use crate::jobs::RequestError;
 use crate::jobs::budget::Budget;
 use crate::jobs::response::{ResponseCurve, response};

@@ -16,18 +16,18 @@
 //! What no finite run can show: a chaotic transient that outlives the effort counts as chaotic, and a periodic motion of
 //! more than 64 excitation periods is never found.
 
+use super::lyapunov::{self, Exponent, KNOWN, Sign};
+use super::meter::Meter;
+use super::motion::{Motion, Reached, Undecided};
 use super::neighbourhood::{Neighbourhood, Relation};
 use super::rotation::{Rotation, disagreement, rotation, weighted_average};
+use super::signature::Signature;
+use super::strobe::Strobe;
+use super::tangent::Tangents;
 use super::zero_one::zero_one;
-use crate::dynamics::lyapunov::{self, Exponent, KNOWN, Sign};
-use crate::dynamics::meter::Meter;
-use crate::dynamics::motion::{Motion, Reached, Undecided};
-use crate::dynamics::newton::OrbitSolver;
-use crate::dynamics::period_map::{MOST_PERIODS, PeriodMap};
-use crate::dynamics::signature::Signature;
-use crate::dynamics::strobe::Strobe;
-use crate::dynamics::tangent::Tangents;
-use crate::dynamics::{Collocation, Instability, IntegrationError, Orbit, Outcome, Settings};
+use crate::dynamics::integration::{Collocation, IntegrationError, Outcome, Settings};
+use crate::dynamics::orbits::period_map::MOST_PERIODS;
+use crate::dynamics::orbits::{Instability, Measures, Orbit, OrbitSolver, PeriodMap};
 use crate::model::ReducedSystem;
 
 /// Excitation periods before the states are first looked at, between looks at least, and at most.
@@ -590,7 +590,7 @@ impl Run<'_> {
     }
 
     /// The numbers of the next periods, for a motion that was not recorded.
-    fn measured(&self) -> Option<crate::dynamics::orbit::Measures> {
+    fn measured(&self) -> Option<Measures> {
         const PERIODS: usize = 64;
         let mut integrator = self.integrator.clone();
         let mut meter = Meter::default();

@@ -4,7 +4,7 @@ use egui::Ui;
 use egui_plot::PlotPoint;
 
 use crate::app::panels::{Context, grid};
-use crate::app::text::tr;
+use crate::app::text::{marked, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::widgets::number::prefix;
@@ -13,9 +13,9 @@ use crate::app::widgets::{Series, legend};
 use crate::export::Pen;
 use crate::jobs::design::trust::{LAWS, force_beyond_linear};
 
-use super::trust::NAMES;
-
-/// What stands for each of the laws compared.
+/// Names of the laws compared, and what stands for each.
+pub(super) const NAMES: [&str; 4] =
+    [marked("quadratic"), marked("cubic"), marked("Taylor 5"), marked("exact")];
 const LINES: [Series; 4] = [Series::Published, Series::Coupled, Series::Best, Series::Exact];
 /// Points of a curve.
 const POINTS: usize = 161;

@@ -2,8 +2,8 @@ use super::*;
 use crate::app::link;
 use crate::app::text::{Language, install, reset};
 use crate::app::view::View;
-use crate::dynamics::motion::Undecided;
-use crate::dynamics::verdict::{Coexisting, OtherStart, Warning};
+use crate::dynamics::attractors::motion::Undecided;
+use crate::dynamics::attractors::verdict::{Coexisting, OtherStart, Warning};
 use crate::jobs::design::measured::MeasuredError;
 use crate::model::ModelError;
 
@@ -73,7 +73,7 @@ fn every_error_of_the_core_is_known() {
         }
     }
     // The spectrum is asked for by the core itself, always with what it takes.
-    for file in files.iter().filter(|file| *file != "solver/src/dynamics/spectrum.rs") {
+    for file in files.iter().filter(|file| *file != "solver/src/dynamics/attractors/spectrum.rs") {
         said.extend(literals(&source(file), "#[error("));
     }
     assert!(said.len() > 30, "{said:?}");
@@ -87,7 +87,7 @@ fn every_error_of_the_core_is_known() {
 /// Evidence is put together from pieces: the words of each stand in a sentence here.
 #[test]
 fn every_piece_of_evidence_is_known() {
-    let source = source("solver/src/dynamics/evidence.rs");
+    let source = source("solver/src/dynamics/attractors/evidence.rs");
     let code = source.lines().filter(|line| !line.trim_start().starts_with("//"));
     let code = code.collect::<Vec<_>>().join("\n").replace("#[serde(rename_all = \"snake_case\")]", "");
     let texts: Vec<&str> = code.split('"').skip(1).step_by(2).collect();
@@ -104,7 +104,7 @@ fn every_piece_of_evidence_is_known() {
 
 #[test]
 fn names_of_bifurcation_points_are_known() {
-    let source = source("solver/src/dynamics/curves/curve.rs");
+    let source = source("solver/src/dynamics/bifurcations/curves/curve.rs");
     let names = literals(&source, " => ");
     assert_eq!(names.len(), 11, "{names:?}");
     for name in names {
@@ -217,7 +217,7 @@ fn english_stays_as_it_is_and_sentences_within_sentences_are_reworded() {
 
 #[test]
 fn every_point_of_codimension_two_has_its_name() {
-    for kind in crate::dynamics::curves::SpecialKind::ALL {
+    for kind in crate::dynamics::bifurcations::curves::SpecialKind::ALL {
         let name = kind.to_string();
         assert!(!leaves(&name).contains(&name.as_str()), "{name}");
     }

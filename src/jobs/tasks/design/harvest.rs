@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::failed;
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::attractors::sweep::Dwell;
 use crate::jobs::RequestError;
 use crate::jobs::budget::Budget;
 use crate::jobs::design::band::{half_power, total, usable};

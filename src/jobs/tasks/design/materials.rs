@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::tongue::Window;
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::jobs::RequestError;
 use crate::jobs::budget::Budget;
 use crate::jobs::design::materials::MaterialRow;
