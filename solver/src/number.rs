@@ -22,6 +22,20 @@ pub fn exact(value: f64) -> String {
     if (1e-3..1e6).contains(&magnitude) { format!("{value}") } else { format!("{value:e}") }
 }
 
+/// The shortest text that reads back as `value`: `1e-4`, `0.005`, `8.096928443820915`. Scientific where that saves more
+/// than one character.
+pub fn shortest(value: f64) -> String {
+    let (plain, scientific) = (value.to_string(), format!("{value:e}"));
+    if scientific.len() + 1 < plain.len() { scientific } else { plain }
+}
+
+/// At most six significant digits, for messages of machines: `5.63338`, `1e-15`. Read back it is near `value`.
+pub fn six_digits(value: f64) -> String {
+    let rounded = round_significant(value, 6);
+    let plain = rounded == 0.0 || !rounded.is_finite() || (1e-4..1e7).contains(&rounded.abs());
+    if plain { rounded.to_string() } else { format!("{rounded:e}") }
+}
+
 /// `value` with three to five significant digits: `0.0100`, `8.0969`, `1.00e−4`, `−100`, `0`.
 pub fn display(value: f64) -> String {
     display_within(value, 5)
@@ -69,6 +83,21 @@ pub fn significant(value: f64, digits: usize) -> String {
 /// With three of them.
 pub fn short(value: f64) -> String {
     significant(value, 3)
+}
+
+/// Three significant digits of `value` and no zero in place of a digit, for sentences: `14.2`, `12345`, `1.50e−9`.
+pub fn in_sentence(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let scientific = format!("{value:.2e}");
+    let exponent = scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
+    let text = if (-4..=4).contains(&exponent) {
+        format!("{value:.*}", usize::try_from(2 - exponent).unwrap_or(0))
+    } else {
+        scientific
+    };
+    typographic(&text)
 }
 
 /// The factor and the sign of the SI prefix that makes `value` readable: 1.3e-5 counts in `(1e6, "µ")`.
@@ -160,6 +189,11 @@ mod tests {
         assert_eq!(tick(-100.0, 50.0), "−100");
         assert_eq!(power_of_ten(-3), "10⁻³");
         assert_eq!(power_of_ten(14), "10¹⁴");
+        for (value, text) in
+            [(0.0, "0"), (14.178, "14.2"), (-0.0079727, "−0.00797"), (1.5e-9, "1.50e−9"), (12345.0, "12345")]
+        {
+            assert_eq!(in_sentence(value), text);
+        }
         for value in [1e-4, 8.096_941_6, 0.1 + 0.2, -123_456.7, 1e9] {
             assert_eq!(parse(&exact(value)), Some(value));
         }
