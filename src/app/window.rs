@@ -51,12 +51,12 @@ impl Window {
     }
 }
 
-impl eframe_native::App for Window {
-    fn logic(&mut self, context: &egui::Context, _frame: &mut eframe_native::Frame) {
+impl eframe::App for Window {
+    fn logic(&mut self, context: &egui::Context, _frame: &mut eframe::Frame) {
         self.0.logic(context);
     }
 
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe_native::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         self.0.ui(ui);
         // There is no browser to carry them out.
         self.0.take_errands();
@@ -67,10 +67,10 @@ impl eframe_native::App for Window {
 ///
 /// # Errors
 /// Where there is no screen or no OpenGL.
-pub fn open() -> Result<(), eframe_native::Error> {
+pub fn open() -> Result<(), eframe::Error> {
     let viewport = egui::ViewportBuilder::default().with_inner_size([1440.0, 900.0]);
-    let options = eframe_native::NativeOptions { viewport, ..Default::default() };
-    eframe_native::run_native(
+    let options = eframe::NativeOptions { viewport, ..Default::default() };
+    eframe::run_native(
         "Harvester Lab",
         options,
         Box::new(|creation| Ok(Box::new(Window::new(&creation.egui_ctx)))),
