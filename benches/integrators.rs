@@ -3,9 +3,13 @@
 
 #![allow(clippy::expect_used, reason = "a benchmark fails by panicking")]
 
+#[path = "by_hand/mod.rs"]
+mod by_hand;
+
 use std::time::Instant;
 
-use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
+use by_hand::ByHand;
+use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use divan::{Bencher, black_box};
 use harvester_lab::dynamics::rk4::{PAPER_STEPS_PER_PERIOD, RungeKutta4};
 use harvester_lab::dynamics::{Collocation, Settings, Trajectory};
@@ -41,47 +45,6 @@ fn paper(system: &ReducedSystem) -> Vec<f64> {
         run.step();
     }
     run.state().to_vec()
-}
-
-/// The quadratic two-mode system written out by hand for the other crate's integrator.
-struct ByHand {
-    omega: [f64; 2],
-    eta1: [f64; 2],
-    eta2: [f64; 2],
-    theta: [f64; 2],
-    c1: f64,
-    c2: f64,
-    set: ParameterSet,
-}
-
-impl ByHand {
-    fn new(system: &ReducedSystem) -> Self {
-        let [first, second] = [&system.modes[0], &system.modes[1]];
-        Self {
-            omega: [first.omega, second.omega],
-            eta1: [first.eta1, second.eta1],
-            eta2: [first.eta2, second.eta2],
-            theta: [system.theta[0], system.theta[1]],
-            c1: system.c1,
-            c2: system.taylor_coefficients(2)[1],
-            set: *system.parameters,
-        }
-    }
-}
-
-impl ODE<f64, [f64; 5]> for ByHand {
-    fn diff(&self, t: f64, y: &[f64; 5], dy: &mut [f64; 5]) {
-        let p = &self.set;
-        let (s, w, v) = (y[0] + y[1], y[2] + y[3], y[4]);
-        let common = p.alpha * self.c1 * w - self.c2 * s * s;
-        let drive = p.omega * p.omega * p.beta * (p.omega * t).sin();
-        for k in 0..2 {
-            dy[k] = y[2 + k];
-            dy[2 + k] = (common - self.theta[k] * v + drive * self.eta1[k]) / self.eta2[k]
-                - self.omega[k] * self.omega[k] * (y[k] + p.alpha * y[2 + k]);
-        }
-        dy[4] = (self.theta[0] * y[2] + self.theta[1] * y[3] - p.kappa * v) / p.c;
-    }
 }
 
 fn dop853(system: &ReducedSystem, tolerance: f64) -> Vec<f64> {

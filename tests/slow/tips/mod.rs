@@ -3,10 +3,10 @@
 
 mod truth;
 
-use self::truth::{Standing, Truth, standing};
+use self::truth::{Length, Run, Standing, Truth, standing};
 use harvester_lab::dynamics::sweep::{Course, Dwell, SweepPoint, sweep};
 use harvester_lab::dynamics::tongue::Window;
-use harvester_lab::dynamics::{Verdict, trace_tongue};
+use harvester_lab::dynamics::{Collocation, Settings, Verdict, trace_tongue};
 use harvester_lab::model::{ForceLaw, ModelChoice, Parameter, ParameterSet, ReducedSystem, Shaking};
 use harvester_lab::theory::Resonance;
 
@@ -14,6 +14,46 @@ use harvester_lab::theory::Resonance;
 const AROUND: (f64, f64) = (0.004, 0.1);
 /// Allowed errors of the voltage by verdict and by sweep, relative.
 const VOLTS: (f64, f64) = (0.01, 0.02);
+
+/// A run by our own integrator.
+struct Own {
+    run: Collocation,
+    state: Vec<f64>,
+}
+
+impl Run for Own {
+    fn advance(&mut self, periods: usize) -> Option<f64> {
+        let Self { run, state } = self;
+        let (mut passed, mut square) = (0, 0.0);
+        while passed < periods {
+            let outcome = run.advance(f64::INFINITY, 1, &mut |step| {
+                if step.index == 0 {
+                    passed += 1;
+                    state.copy_from_slice(&step.start[..state.len()]);
+                }
+                let v = step.start[state.len() - 1];
+                square += v * v * step.tables.step;
+            });
+            if outcome.expect("a run").is_some() {
+                return None;
+            }
+        }
+        Some(square)
+    }
+
+    fn state(&self) -> Vec<f64> {
+        self.state.clone()
+    }
+}
+
+/// Follows the start of `system` at rest to a dimensionless time of 20,000.
+fn from_rest(system: &ReducedSystem) -> Truth {
+    let rest = vec![0.0; system.dimension()];
+    let run = Collocation::new(system, &rest, Settings { tolerance: 1e-9 }).expect("a start");
+    let period = system.parameters.period();
+    let least = (20_000.0 / period).ceil() as usize;
+    truth::follow(system, &mut Own { run, state: rest }, Length { first: least, least, most: 4_000_000 })
+}
 
 /// Points about the tips, so many for each device, law and resonance.
 fn points(seed: u64, each: usize) -> Vec<(ParameterSet, ModelChoice)> {
@@ -63,7 +103,7 @@ fn check(seed: u64, each: usize) {
     let mut wrong = Vec::new();
     for (set, model) in &points {
         let system = model.system(*set).expect("a device");
-        let truth = truth::from_rest(&system);
+        let truth = from_rest(&system);
         let verdict = Verdict::of(&system, &vec![0.0; system.dimension()], 600.0).expect("a verdict");
         let by_verdict = standing(&truth, verdict.motion, verdict.v_rms.unwrap_or(0.0), VOLTS.0);
         let point = swept(set, *model, &system);

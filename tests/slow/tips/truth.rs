@@ -1,19 +1,17 @@
 //! What a start leads to by brute force: a long run at a tight tolerance, closed by Newton's iteration from its end. It uses
-//! nothing of what the verdict is made of but the integrator and the map, which other tests hold to their own truths.
+//! nothing of what the verdict is made of but the map, which other tests hold to their own truths; whoever asks brings the
+//! integrator.
 
-use harvester_lab::dynamics::{Collocation, Motion, Orbit, Outcome, Settings};
+use harvester_lab::dynamics::{Motion, Orbit};
 use harvester_lab::model::ReducedSystem;
 
-/// Dimensionless time of the run, at least.
-const DURATION: f64 = 20_000.0;
-/// Excitation periods after which a run that still leaves an unstable motion is given up.
-const MOST_PERIODS: usize = 4_000_000;
 /// Longest period that is looked for.
 const LONGEST: usize = 12;
 /// Change of the voltage from one stretch of the run to the next, relative, that is none.
 const STEADY: f64 = 0.02;
-/// Distance from the orbit, relative to its size, at which the run has arrived.
+/// Distance from the orbit, relative to its size, at which the run has arrived, and at which it may stop before its time.
 const ARRIVED: f64 = 1e-3;
+const EARLY: f64 = 1e-6;
 
 /// What the run came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,43 +24,46 @@ pub(crate) enum Truth {
     Open(f64),
 }
 
-/// Follows the start of `system` at rest.
-pub(crate) fn from_rest(system: &ReducedSystem) -> Truth {
-    let settings = Settings { tolerance: 1e-9 };
-    let rest = vec![0.0; system.dimension()];
-    let mut run = Collocation::new(system, &rest, settings).expect("a start");
+/// A run that can be continued by whole excitation periods.
+pub(crate) trait Run {
+    /// Continues for so many, and returns the integral of v^2 over them; `None` when the run ends.
+    fn advance(&mut self, periods: usize) -> Option<f64>;
+    /// The state at a stroboscopic instant.
+    fn state(&self) -> Vec<f64>;
+}
+
+/// How long a run is, in excitation periods.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Length {
+    /// The first look at it, which ends it when it has long arrived.
+    pub(crate) first: usize,
+    /// Before this it is not given up as open.
+    pub(crate) least: usize,
+    /// After this a run that still leaves an unstable motion is.
+    pub(crate) most: usize,
+}
+
+/// Follows `run` of `system`.
+pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length) -> Truth {
     let period = system.parameters.period();
-    let least = (DURATION / period).ceil() as usize;
     let mut done = 0;
     let (mut earlier, mut open) = (None, f64::NAN);
-    while done < MOST_PERIODS {
-        let until = if done == 0 { least } else { (done + done / 2).min(MOST_PERIODS) };
-        let mut last: Vec<Vec<f64>> = Vec::new();
-        let (mut square, mut count) = (0.0, 0.0);
-        let tenth = until - (until - done) / 10;
-        while done < until {
-            let outcome = run.advance(f64::INFINITY, 1, &mut |step| {
-                if step.index == 0 {
-                    done += 1;
-                    last.push(step.start[..rest.len()].to_vec());
-                }
-                if done > tenth {
-                    let v = step.start[rest.len() - 1];
-                    square += v * v * step.tables.step;
-                    count += step.tables.step;
-                }
-            });
-            match outcome.expect("a run") {
-                None => {}
-                Some(Outcome::Completed) => unreachable!("a run without an end"),
-                Some(_) => return Truth::Ended,
-            }
-            if last.len() > 4 * LONGEST {
-                last.drain(..2 * LONGEST);
-            }
+    while done < length.most {
+        let until = if done == 0 { length.first } else { (done + done / 2).min(length.most) };
+        let tenth = ((until - done) / 10).max(2 * LONGEST);
+        if run.advance(until.saturating_sub(tenth + done)).is_none() {
+            return Truth::Ended;
         }
+        let Some(mut square) = run.advance(tenth - LONGEST) else { return Truth::Ended };
+        let mut last = vec![run.state()];
+        for _ in 0..LONGEST {
+            let Some(one) = run.advance(1) else { return Truth::Ended };
+            square += one;
+            last.push(run.state());
+        }
+        done = until;
         let mut leaving = false;
-        let state = last.last().expect("a state").clone();
+        let state = run.state();
         for periods in 1..=LONGEST {
             let Ok(orbit) = Orbit::find(system, Some(&state), periods) else { continue };
             let size = orbit
@@ -76,23 +77,25 @@ pub(crate) fn from_rest(system: &ReducedSystem) -> Truth {
                 parts.map(|((a, b), scale)| ((a - b) / scale).abs()).fold(0.0, f64::max)
             };
             let unit = size.max(1e-4 * system.equilibrium.gap);
-            let before = last[last.len() - 1 - periods * ((last.len() - 1) / periods)].clone();
-            if orbit.stable() && off(&state) <= ARRIVED * unit {
+            let near = if done < length.least { EARLY } else { ARRIVED };
+            if orbit.stable() && off(&state) <= near * unit {
                 return Truth::Periodic(Box::new(orbit));
             }
+            let before = &last[last.len() - 1 - periods * (LONGEST / periods)];
             let shrinks = earlier.as_ref().is_some_and(|earlier: &Vec<f64>| off(&state) < 0.5 * off(earlier));
-            if orbit.stable() && off(&state) <= 0.1 * unit && shrinks && off(&state) < off(&before) {
+            let arrives = off(&state) <= 0.1 * unit && shrinks && off(&state) < off(before);
+            if orbit.stable() && arrives && done >= length.least {
                 return Truth::Periodic(Box::new(orbit));
             }
             // Whatever is near may still be approached, or left.
             leaving |= off(&state) <= 0.3 * unit;
         }
         earlier = Some(state);
-        let now = (square / count).sqrt();
+        let now = (square / (tenth as f64 * period)).sqrt();
         // What drifts is still on its way.
         let steady = (now / open - 1.0).abs() <= STEADY;
         open = now;
-        if steady && !leaving {
+        if steady && !leaving && done >= length.least {
             break;
         }
     }
