@@ -24,14 +24,15 @@ struct Own {
 impl Run for Own {
     fn advance(&mut self, periods: usize) -> Option<f64> {
         let Self { run, state } = self;
+        let width = state.len();
         let (mut passed, mut square) = (0, 0.0);
         while passed < periods {
             let outcome = run.advance(f64::INFINITY, 1, &mut |step| {
                 if step.index == 0 {
                     passed += 1;
-                    state.copy_from_slice(&step.start[..state.len()]);
+                    state.copy_from_slice(&step.start[..width]);
                 }
-                let v = step.start[state.len() - 1];
+                let v = step.start[width - 1];
                 square += v * v * step.tables.step;
             });
             if outcome.expect("a run").is_some() {
