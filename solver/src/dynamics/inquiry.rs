@@ -26,12 +26,15 @@ const EXPONENT_PERIODS: (usize, usize) = (256, 8192);
 const ACCURATE: f64 = 0.02;
 /// Decay of the tangent vectors over the record after which it is long enough whatever the interval says.
 const LONG: f64 = 200.0;
-/// Difference of two runs from one start, relative to the largest displacement, beyond which they have separated.
+/// Difference of two runs from one start, relative to the largest displacement, beyond which they have separated; and the
+/// largest half that time before, since what grows with the time only is a vibration's phase that the coarser run loses.
 const SEPARATED: f64 = 0.05;
+const TOGETHER: f64 = 0.005;
 /// Starts that are tried beside the one asked for when two runs from it separate.
 const BESIDE: usize = 10;
-/// Excitation periods that a chaotic one of them must last.
+/// Excitation periods that a chaotic one of them must last, and integrator steps that each may cost.
 const BESIDE_LASTING: usize = 8000;
+const BESIDE_STEPS: u64 = 600_000;
 /// How far they are from it, relative to the gap: more than rounding, less than anybody could set.
 const BESIDE_BY: f64 = 1e-10;
 
@@ -110,8 +113,15 @@ fn beside(
         matches!(reached.motion, Motion::Chaotic | Motion::Quasiperiodic | Motion::Undecided { .. });
     let separated = !lasting && separated(reached, &coarser);
     let mut ends = vec![(own, 1)];
-    if same && !separated {
+    let undecided = |reached: &Reached| matches!(reached.motion, Motion::Undecided { .. });
+    // One that is not decided is no other motion.
+    if (same || undecided(&coarser)) && !separated {
         return Ok((ends, false));
+    }
+    // A run that found the way out of chaos shows that there is one.
+    if reached.motion == Motion::Chaotic && !same && !undecided(&coarser) {
+        ends.push((Signature::of(coarser), 1));
+        return Ok((ends, separated));
     }
     let scales = super::period_map::scales(system);
     for k in 1..=BESIDE {
@@ -124,11 +134,11 @@ fn beside(
                 value + BESIDE_BY * system.equilibrium.gap * scale * direction
             })
             .collect();
-        let effort = Effort { lasting: BESIDE_LASTING, ..Effort::full() };
+        let effort =
+            Effort { lasting: BESIDE_LASTING, beside_stable: 1, steps: BESIDE_STEPS, ..Effort::full() };
         let end = Signature::of(settler.reach(&moved, effort)?);
         match ends.iter_mut().find(|(known, _)| recogniser.same(known, &end)) {
             Some((_, count)) => *count += 1,
-            // One that is not decided is no other motion.
             None if matches!(end.cell.motion, Motion::Undecided { .. }) => {}
             None => ends.push((end, 1)),
         }
@@ -140,7 +150,9 @@ fn beside(
 fn separated(a: &Reached, b: &Reached) -> bool {
     let pairs = || a.notes.iter().zip(&b.notes);
     let largest = pairs().map(|(a, b)| a.abs().max(b.abs())).fold(0.0, f64::max);
-    pairs().any(|(a, b)| (a - b).abs() > SEPARATED * largest)
+    let apart = |by: f64| pairs().position(|(a, b)| (a - b).abs() > by * largest);
+    let (Some(first), Some(apart)) = (apart(TOGETHER), apart(SEPARATED)) else { return false };
+    first > apart / 2
 }
 
 /// The exponent by tangent vectors along the motion from `state`, which has settled: a second witness beside multipliers or
