@@ -1,6 +1,8 @@
 //! The run of Figure 4 to t = 604.999982934 by our integrator, the paper's method and a public DOP853, and our
 //! integrator on larger systems. `-- --table` prints minimum, median and error of each instead of divan's report.
 
+#![allow(clippy::expect_used, reason = "a benchmark fails by panicking")]
+
 #[path = "by_hand/mod.rs"]
 mod by_hand;
 

@@ -7,6 +7,7 @@
 //! * [`jobs`] is the one request and answer type that the page, JavaScript and the native command share.
 //! * [`scenario`] is everything a view depends on, as stored and shared.
 //! * [`export`] writes plots as SVG and CSV, a report as HTML, and a question as a program.
+//! * [`spacing`] is what equally spaced means, everywhere.
 //! * `app` (feature `app`) is the egui front end; it draws what the other modules computed.
 //!
 //! Dependencies point one way: app -> export, jobs -> dynamics, theory -> model.
@@ -16,6 +17,7 @@ pub use harvester_solver::{dynamics, model, theory};
 pub mod export;
 pub mod jobs;
 pub mod scenario;
+pub mod spacing;
 
 #[cfg(feature = "app")]
 pub mod app;

@@ -13,6 +13,8 @@ pub mod text;
 pub mod theme;
 pub mod view;
 pub mod widgets;
+#[cfg(all(feature = "window", not(target_arch = "wasm32")))]
+pub mod window;
 
 mod bench;
 mod caption;

@@ -1,4 +1,4 @@
-//! What a lesson's file holds. `tests/lessons/` runs every step; what it checks beside (`claims`) the page ignores.
+//! What a lesson's file holds. `tests/slow/lessons/` runs every step; what it checks beside (`claims`) the page ignores.
 //!
 //! Read by hand: derived readers of these types would weigh as much in the page as all the lessons.
 

@@ -17,6 +17,7 @@ use crate::jobs::response::{ResponseCurve, ResponsePoint};
 use crate::jobs::work::{Finding, Work};
 use crate::model::{ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
+use crate::spacing::between;
 
 /// Frequencies of a piece of work.
 const PER_PIECE: usize = 8;
@@ -259,8 +260,7 @@ impl HarvestStudy {
     }
 
     fn omega(&self, index: usize) -> f64 {
-        let (low, high) = self.question.window;
-        low + (high - low) * index as f64 / (self.question.count - 1) as f64
+        between(self.question.window, index, self.question.count)
     }
 
     fn next_starts(&mut self) -> Option<(usize, Work)> {

@@ -11,6 +11,7 @@ use crate::jobs::motions::{MotionPlane, at_place};
 use crate::jobs::work::{Finding, Work};
 use crate::model::{ModelError, Units};
 use crate::scenario::Scenario;
+use crate::spacing::between;
 
 /// Columns and rows a chart may have.
 pub const SIZES: (usize, usize) = (2, 512);
@@ -70,10 +71,6 @@ impl MotionQuestion {
     fn plane(&self) -> MotionPlane {
         MotionPlane { scenario: self.scenario.clone(), x: self.x.0, y: self.y.0 }
     }
-}
-
-fn between((low, high): (f64, f64), index: usize, count: usize) -> f64 {
-    low + (high - low) * index as f64 / (count - 1) as f64
 }
 
 /// A cell and the group it belongs to: neighbours of different groups are refined first.

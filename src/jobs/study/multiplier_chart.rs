@@ -7,6 +7,7 @@ use crate::jobs::response::check_range;
 use crate::jobs::work::{Column, Finding, Work};
 use crate::model::{ModelError, Parameter};
 use crate::scenario::Scenario;
+use crate::spacing::between;
 
 /// Columns and rows of the first, coarse picture.
 const FIRST: (usize, usize) = (16, 24);
@@ -57,10 +58,6 @@ impl MultiplierQuestion {
     pub fn beta_at(&self, row: usize) -> f64 {
         between(self.beta, row, self.size.1)
     }
-}
-
-fn between((low, high): (f64, f64), index: usize, count: usize) -> f64 {
-    low + (high - low) * index as f64 / (count - 1) as f64
 }
 
 /// A chart being computed: first every sixteenth column coarsely, then every column, those beside a change first.

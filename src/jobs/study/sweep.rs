@@ -8,6 +8,7 @@ use crate::jobs::response::check_range;
 use crate::jobs::work::{Finding, Work};
 use crate::model::{ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
+use crate::spacing::equally_spaced;
 
 /// Numbers of values a sweep may have.
 pub const COUNTS: (usize, usize) = (2, 2000);
@@ -60,11 +61,10 @@ impl SweepQuestion {
 
     /// The values in the order of `direction`.
     pub fn values(&self, direction: Direction) -> Vec<f64> {
-        let (low, high) = self.range;
-        let value = |i: usize| low + (high - low) * i as f64 / (self.count - 1) as f64;
+        let values = equally_spaced(self.range, self.count);
         match direction {
-            Direction::Up => (0..self.count).map(value).collect(),
-            Direction::Down => (0..self.count).rev().map(value).collect(),
+            Direction::Up => values.collect(),
+            Direction::Down => values.rev().collect(),
         }
     }
 }

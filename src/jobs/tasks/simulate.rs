@@ -11,6 +11,7 @@ use crate::jobs::RequestError;
 use crate::jobs::budget::Budget;
 use crate::model::{ModelError, ParameterSet, ReducedSystem};
 use crate::scenario::ModelChoice;
+use crate::spacing::equally_spaced;
 use crate::theory::CoupledModes;
 
 const TOLERANCES: (f64, f64) = (1e-10, 1e-2);
@@ -220,9 +221,8 @@ impl SimulateRequest {
 
     /// The times of the samples that a run ending at `end` reaches, and last `end` itself.
     fn sample_times(&self, end: f64) -> Vec<f64> {
-        let count = self.samples;
-        let time = |i: usize| self.t_end * i as f64 / (count - 1) as f64;
-        let mut times: Vec<f64> = (0..count - 1).map(time).filter(|time| *time < end).collect();
+        let all = equally_spaced((0.0, self.t_end), self.samples).take(self.samples - 1);
+        let mut times: Vec<f64> = all.filter(|time| *time < end).collect();
         times.push(end);
         times
     }

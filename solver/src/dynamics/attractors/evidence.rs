@@ -8,6 +8,7 @@ use super::rotation::Rotation;
 use super::signature::Signature;
 use super::voltage_spectrum::VoltageSpectrum;
 use crate::dynamics::orbits::Orbit;
+use crate::number::in_sentence;
 
 /// Distance from a periodic motion below which its stroboscopic points must repeat.
 const SETTLED: f64 = 1e-4;
@@ -70,7 +71,7 @@ impl Evidence {
             orbit.periods,
             if orbit.stable() { "stable" } else { "unstable" },
             orbit.largest_multiplier().norm(),
-            short(distance),
+            in_sentence(distance),
         );
         Self::new(EvidenceSource::Multipliers, Some(orbit.stable()), says)
     }
@@ -81,7 +82,7 @@ impl Evidence {
     /// better; so any multiple agrees with period p.
     pub(super) fn recurrence(reached: &Reached) -> Option<Self> {
         let found = reached.recurrence?;
-        let to = short(found.defect);
+        let to = in_sentence(found.defect);
         let mut says = match (found.period, found.settled) {
             (Some(period), true) => format!("stroboscopic points repeat after {} to {to}", periods(period)),
             (Some(period), false) => {
@@ -129,8 +130,11 @@ impl Evidence {
     pub(super) fn beside(ends: &[(Signature, usize)]) -> Self {
         let end = |(signature, count): &(Signature, usize)| {
             let Cell { motion, v_rms, .. } = signature.cell;
-            let volts =
-                if signature.cell.lasts() { format!(", {} V rms", short(v_rms)) } else { String::new() };
+            let volts = if signature.cell.lasts() {
+                format!(", {} V rms", in_sentence(v_rms))
+            } else {
+                String::new()
+            };
             format!("{count} × {motion}{volts}")
         };
         let all: Vec<String> = ends.iter().map(end).collect();
@@ -141,7 +145,7 @@ impl Evidence {
     pub(super) fn rotation(rotation: Rotation) -> Self {
         let Rotation { number, error } = rotation;
         let says =
-            format!("rotation number {number:.9}, the halves of the record differ by {}", short(error));
+            format!("rotation number {number:.9}, the halves of the record differ by {}", in_sentence(error));
         Self::new(EvidenceSource::Rotation, Some(true), says)
     }
 
@@ -158,7 +162,8 @@ impl Evidence {
     /// The exponent, which must be that of the multipliers on a periodic motion.
     pub(super) fn exponent(motion: Motion, exponent: &Exponent, orbit: Option<&Orbit>, period: f64) -> Self {
         let sign = exponent.sign();
-        let mut says = format!("exponent {} ± {}", short(exponent.value), short(exponent.half_width));
+        let mut says =
+            format!("exponent {} ± {}", in_sentence(exponent.value), in_sentence(exponent.half_width));
         if sign == Sign::Zero {
             says.push_str(": zero");
         } else if !exponent.converged {
@@ -168,7 +173,7 @@ impl Evidence {
             (_, Sign::Open) => None,
             (Motion::Periodic { .. }, Sign::Negative) => Some(orbit.is_none_or(|orbit| {
                 let expected = orbit.largest_multiplier().norm().ln() / (period * orbit.periods as f64);
-                says.push_str(&format!("; by the multipliers {}", short(expected)));
+                says.push_str(&format!("; by the multipliers {}", in_sentence(expected)));
                 exponent.fits(orbit, period)
             })),
             // So weakly stable that the record cannot tell it from neutral.
@@ -189,7 +194,7 @@ impl Evidence {
             .take(NAMED)
             .map(|peak| {
                 let name = peak.label.map_or_else(|| format!("{:.4}", peak.omega), |label| label.to_string());
-                format!("{name} at {} V", short(peak.amplitude))
+                format!("{name} at {} V", in_sentence(peak.amplitude))
             })
             .collect();
         if let Some(basic) = found.basic {
@@ -197,7 +202,10 @@ impl Evidence {
         }
         let regular = found.share >= LINES;
         if !regular {
-            parts.push(format!("{} % of its power between the lines", short(100.0 * (1.0 - found.share))));
+            parts.push(format!(
+                "{} % of its power between the lines",
+                in_sentence(100.0 * (1.0 - found.share))
+            ));
         }
         // A voltage that stays zero says nothing.
         let silent = found.peaks.is_empty();
@@ -215,21 +223,6 @@ impl Evidence {
 
 fn periods(count: usize) -> String {
     if count == 1 { "1 period".to_owned() } else { format!("{count} periods") }
-}
-
-/// Three significant digits, with an exponent only where it saves zeros.
-pub(super) fn short(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let text = format!("{value:.2e}");
-    let exponent = text.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
-    if (-4..=4).contains(&exponent) {
-        let decimals = (2 - exponent).max(0) as usize;
-        format!("{value:.decimals$}").replace('-', "−")
-    } else {
-        text.replace('-', "−")
-    }
 }
 
 #[cfg(test)]
@@ -299,14 +292,5 @@ mod tests {
         );
         // One that says nothing supports nothing.
         assert_eq!(Evidence::exponent(one, &exponent(0.0, 0.5), None, 0.25).agrees, None);
-    }
-
-    #[test]
-    fn numbers_have_three_significant_digits() {
-        for (value, text) in
-            [(0.0, "0"), (14.178, "14.2"), (-0.0079727, "−0.00797"), (1.5e-9, "1.50e−9"), (12345.0, "12345")]
-        {
-            assert_eq!(short(value), text);
-        }
     }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
-use super::evidence::{Evidence, EvidenceSource, short};
+use super::evidence::{Evidence, EvidenceSource};
 use super::lyapunov::Exponent;
 use super::motion::Motion;
 use super::rotation::Rotation;
@@ -17,6 +17,7 @@ use crate::dynamics::orbits::{Instability, Orbit};
 use crate::model::force::Exact;
 use crate::model::limits::LINEAR_BEAM;
 use crate::model::{ForceLaw, ReducedSystem};
+use crate::number::in_sentence;
 
 /// Distance from the periodic motion, relative to the amplitude, beyond which the transient has not gone.
 const TRANSIENT: f64 = 1e-3;
@@ -107,7 +108,12 @@ impl fmt::Display for Coexisting {
             OtherStart::Beside => "that differs by rounding",
             OtherStart::OnTheWay => "on a motion met on the way",
         };
-        write!(f, "a start {start} leads to another motion: {}, {} V rms", self.motion, short(self.v_rms))
+        write!(
+            f,
+            "a start {start} leads to another motion: {}, {} V rms",
+            self.motion,
+            in_sentence(self.v_rms)
+        )
     }
 }
 
@@ -160,21 +166,21 @@ impl fmt::Display for Warning {
                 write!(
                     f,
                     "the transient has not gone: the run ends {} % of the amplitude away",
-                    short(100.0 * fraction)
+                    in_sentence(100.0 * fraction)
                 )
             }
             Self::TransientChaos { time } => {
-                write!(f, "neighbouring motions diverge until it settles, at t = {}", short(time))
+                write!(f, "neighbouring motions diverge until it settles, at t = {}", in_sentence(time))
             }
             Self::WouldTake { time } => {
-                write!(f, "to decide would take about {} more in t", short(time))
+                write!(f, "to decide would take about {} more in t", in_sentence(time))
             }
             Self::ForceLaw { missing } => {
                 let word = if missing > 0.0 { "weak" } else { "strong" };
                 write!(
                     f,
                     "the magnet force beyond its linear part is {} % too {word} at the closest approach under this force law",
-                    short(100.0 * missing.abs())
+                    in_sentence(100.0 * missing.abs())
                 )
             }
             Self::PassesMagnet => {
@@ -184,7 +190,7 @@ impl fmt::Display for Warning {
                 write!(
                     f,
                     "the tip moves by {} of the beam's length, where the beam is no linear one",
-                    short(tip)
+                    in_sentence(tip)
                 )
             }
             Self::TruncatedBarrier => f.write_str(
@@ -194,7 +200,7 @@ impl fmt::Display for Warning {
                 write!(
                     f,
                     "the motion that grows from rest with beta can be followed to beta = {} only",
-                    short(beta)
+                    in_sentence(beta)
                 )
             }
             Self::ForcedMotionUnknown => f.write_str("the forced motion could not be computed"),
