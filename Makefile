@@ -2,7 +2,7 @@
 SHELL := /usr/bin/env bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
-.PHONY: help serve build dev serve-dev test check page-test bench fmt clean
+.PHONY: help serve build dev serve-dev watch test check lint native-test page-test bench fmt clean
 
 PORT ?= 8080
 DEV_DIST := target/page-dev-dist
@@ -16,11 +16,9 @@ CRATES := $(or $(CARGO_HOME),$(HOME)/.cargo)/registry/src
 ifeq ($(words $(CRATES)),1)
 export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS := --remap-path-prefix=$(CRATES)=crates
 endif
-# Helpers of tests panic as tests do; the sources are linted once more without this.
-TESTS_MAY_PANIC := -A clippy::expect_used -A clippy::unwrap_used
 
 help: ## this list
-	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{ printf "  make %-10s %s\n", $$1, $$2 }'
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{ printf "  make %-11s %s\n", $$1, $$2 }'
 
 serve: build ## build the page and serve it on http://127.0.0.1:8080/ (PORT=...)
 	@echo "Harvester Lab: http://127.0.0.1:$(PORT)/ (Ctrl-C stops)"
@@ -38,19 +36,27 @@ serve-dev: dev ## the same, served
 	@echo "Harvester Lab: http://127.0.0.1:$(PORT)/ (Ctrl-C stops)"
 	@python3 -m http.server --bind 127.0.0.1 --directory $(DEV_DIST) $(PORT)
 
+watch: ## the same, built and shown anew at every change of a source
+	@scripts/tools.sh dev
+	trunk serve --cargo-profile page-dev --dist $(DEV_DIST) --port $(PORT) --watch index.html --watch assets \
+	  --watch src --watch solver/src --watch Cargo.toml
+
 test: ## everything that is checked: format, lints, documentation, tests, page, browser tests, page weight
 	@scripts/tools.sh test
 	@scripts/timed.sh "format, lints, documentation, native tests" $(MAKE) --no-print-directory check
 	@scripts/timed.sh "page" $(MAKE) --no-print-directory build
 	@scripts/timed.sh "browser tests" $(MAKE) --no-print-directory page-test
 
-check: ## the part of `make test` that needs no browser
+check: lint native-test ## the part of `make test` that needs no browser
+
+lint: ## format, lints (native, without the page, in the page), documentation
 	cargo fmt --all --check
-	cargo clippy --workspace --locked --quiet --all-targets -- -D warnings $(TESTS_MAY_PANIC)
-	cargo clippy --workspace --locked --quiet --all-targets --features app -- -D warnings $(TESTS_MAY_PANIC)
-	cargo clippy --workspace --locked --quiet --lib --bins --features app -- -D warnings
+	cargo clippy --workspace --locked --quiet --all-targets --features app -- -D warnings
+	cargo clippy --workspace --locked --quiet --all-targets -- -D warnings
 	CLIPPY_CONF_DIR=scripts/wasm cargo clippy --workspace --locked --quiet --lib --bins --features app --target wasm32-unknown-unknown -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --locked --quiet --no-deps --features app
+
+native-test: ## the tests that need no browser
 	cargo test --workspace --locked --quiet --features app
 
 page-test: ## the browser tests on what is in dist/

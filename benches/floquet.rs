@@ -4,8 +4,8 @@
 #![allow(clippy::expect_used, reason = "a benchmark fails by panicking")]
 
 use divan::{Bencher, black_box, counter::ItemsCount};
-use harvester_lab::dynamics::curves::{Line, bifurcations_along_line, trace_curve};
-use harvester_lab::dynamics::tongue::Window;
+use harvester_lab::dynamics::bifurcations::curves::{Line, bifurcations_along_line, trace_curve};
+use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{
     Axis, Instability, Orbit, Plane, critical_excitation, largest_multipliers, trace_tongue,
 };

@@ -1,6 +1,8 @@
 //! The run of Figure 4 to t = 604.999982934 by our integrator, the paper's method and a public DOP853, and our
 //! integrator on larger systems. `-- --table` prints minimum, median and error of each instead of divan's report.
 
+#![allow(clippy::expect_used, reason = "a benchmark fails by panicking")]
+
 #[path = "by_hand/mod.rs"]
 mod by_hand;
 
@@ -9,7 +11,7 @@ use std::time::Instant;
 use by_hand::ByHand;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use divan::{Bencher, black_box};
-use harvester_lab::dynamics::rk4::{PAPER_STEPS_PER_PERIOD, RungeKutta4};
+use harvester_lab::dynamics::integration::rk4::{PAPER_STEPS_PER_PERIOD, RungeKutta4};
 use harvester_lab::dynamics::{Collocation, Settings, Trajectory};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 

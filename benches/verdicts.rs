@@ -4,16 +4,18 @@
 //! `cargo bench --bench verdicts` tries 200 points over the whole range of the parameters and 120 hard-driven ones;
 //! `cargo bench --bench verdicts -- 2000 7` so many of the former, from another seed. Each wrong one is printed.
 
+#![allow(clippy::expect_used, reason = "a benchmark fails by panicking")]
+
 #[path = "by_hand/mod.rs"]
 mod by_hand;
-#[path = "../tests/tips/truth.rs"]
+#[path = "../tests/slow/tips/truth.rs"]
 mod truth;
 
 use std::time::Instant;
 
 use by_hand::ByHand;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
-use harvester_lab::dynamics::motion::Undecided;
+use harvester_lab::dynamics::attractors::motion::Undecided;
 use harvester_lab::dynamics::{ESCAPE_DISPLACEMENT, Motion, Verdict};
 use harvester_lab::model::{ForceLaw, ModelChoice, ParameterSet, ReducedSystem};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};

@@ -8,6 +8,7 @@
 //!   their pieces of work to cores and workers.
 //! * [`scenario`] is everything a view depends on, as stored and shared.
 //! * [`export`] writes plots as SVG and CSV, a report as HTML, and a question as a program.
+//! * [`spacing`] is what equally spaced means, everywhere.
 //! * `app` (feature `app`) is the egui front end; it draws what the other modules computed.
 //!
 //! Dependencies point one way: app -> export, questions -> scheduler, dynamics, theory -> model.
@@ -18,6 +19,7 @@ pub mod export;
 pub mod questions;
 pub mod scenario;
 pub mod scheduler;
+pub mod spacing;
 
 #[cfg(feature = "app")]
 pub mod app;

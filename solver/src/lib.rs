@@ -10,6 +10,7 @@
 //!   coupled-mode boundary that keeps the electrical circuit the published ones leave out.
 //! * [`dynamics`] integrates: the classical Runge-Kutta run of the paper, and an error-controlled exponential
 //!   collocation that does the same run a thousand times faster.
+//! * [`number`] writes numbers for people, here and in the page.
 //!
 //! Dependencies point one way: dynamics, theory -> model. Everything is dimensionless unless a docstring names
 //! a unit; time is counted in units of `sqrt(m_b L^3 / (E I))`, lengths in units of the beam's length, voltages in
@@ -17,4 +18,5 @@
 
 pub mod dynamics;
 pub mod model;
+pub mod number;
 pub mod theory;

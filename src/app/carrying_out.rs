@@ -1,7 +1,7 @@
 //! What each command changes: the one place that changes anything.
 
 use super::command::Command;
-use super::sharing::Errand;
+use super::errand::Errand;
 use super::view::MapWindow;
 use super::{App, bench, figures};
 use crate::scenario::Scenario;

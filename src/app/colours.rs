@@ -5,7 +5,7 @@ use egui::Color32;
 use super::theme::Tokens;
 use crate::app::text::tr;
 use crate::dynamics::Instability;
-use crate::dynamics::motion::Motion;
+use crate::dynamics::attractors::motion::Motion;
 
 /// Decay and growth per excitation period at which a chart's colour has gone two thirds of its way.
 const DECAY_SCALE: f64 = 0.01;

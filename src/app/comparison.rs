@@ -4,7 +4,7 @@
 use super::figures::{BoundaryFigure, Figure};
 use super::map::Tongue;
 use crate::dynamics::Outcome;
-use crate::dynamics::summary::Summary;
+use crate::dynamics::integration::summary::Summary;
 use crate::model::{ForceLaw, ParameterSet};
 use crate::questions::RunJob;
 use crate::scenario::{ModelChoice, Scenario};

@@ -5,6 +5,7 @@ use egui_plot::PlotPoint;
 use crate::dynamics::Outcome;
 use crate::model::ReducedSystem;
 use crate::questions::Run;
+use crate::spacing::equally_spaced;
 use crate::theory::SteadyState;
 
 /// Samples of an excitation period in the phase portrait.
@@ -114,7 +115,7 @@ impl Curves {
         let points = &run.strobe;
         // The start belongs to the time history; the map shows where the points go.
         let (first, split) = (points.len() / 10, points.len() * 3 / 4);
-        let convert = |range: &[crate::dynamics::poincare::PhasePoint]| {
+        let convert = |range: &[crate::dynamics::attractors::poincare::PhasePoint]| {
             range.iter().map(|point| PlotPoint::new(point.v, point.dv_dt)).collect()
         };
         if run.outcome() == Outcome::Completed {
@@ -171,16 +172,14 @@ fn last_time_in_sight(run: &Run) -> f64 {
 
 /// Mode shapes along the beam, one row a mode.
 pub(super) fn shapes(system: &ReducedSystem) -> Vec<Vec<f64>> {
-    let along = |i: usize| i as f64 / (BEAM_POINTS - 1) as f64;
-    system.modes.iter().map(|mode| (0..BEAM_POINTS).map(|i| mode.shape(along(i))).collect()).collect()
+    let along = || equally_spaced((0.0, 1.0), BEAM_POINTS);
+    system.modes.iter().map(|mode| along().map(|x| mode.shape(x)).collect()).collect()
 }
 
 /// The deflection of the beam in a state, as points (x, z) from clamp to tip, in beam lengths.
 pub(super) fn beam(shapes: &[Vec<f64>], state: &[f64]) -> Vec<[f64; 2]> {
-    (0..BEAM_POINTS)
-        .map(|i| {
-            let z = shapes.iter().zip(state).map(|(shape, q)| shape[i] * q).sum();
-            [i as f64 / (BEAM_POINTS - 1) as f64, z]
-        })
+    equally_spaced((0.0, 1.0), BEAM_POINTS)
+        .enumerate()
+        .map(|(i, x)| [x, shapes.iter().zip(state).map(|(shape, q)| shape[i] * q).sum()])
         .collect()
 }

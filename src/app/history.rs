@@ -4,6 +4,8 @@
 
 use std::collections::VecDeque;
 
+use egui::Event;
+
 /// Steps that can be taken back; older ones are forgotten.
 const STEPS: usize = 300;
 
@@ -23,6 +25,20 @@ pub(super) struct Hand {
     pub presses: bool,
     /// One is down, or goes up in this very frame.
     pub holds: bool,
+}
+
+impl Hand {
+    /// What pointers and keys do in this frame.
+    pub(super) fn of(context: &egui::Context) -> Self {
+        context.input(|input| {
+            let key = |event: &Event| matches!(event, Event::Key { pressed: true, repeat: false, .. });
+            let pointer = &input.pointer;
+            Self {
+                presses: pointer.any_pressed() || input.events.iter().any(key),
+                holds: pointer.any_down() || pointer.any_released() || !input.keys_down.is_empty(),
+            }
+        })
+    }
 }
 
 impl<S> Default for History<S> {

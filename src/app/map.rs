@@ -6,6 +6,7 @@ use super::view::MapWindow;
 use crate::model::ReducedSystem;
 use crate::questions::design::Plant;
 use crate::scenario::{ModelChoice, Scenario};
+use crate::spacing::equally_spaced;
 use crate::theory::{CoupledModes, Published, Resonance};
 
 /// Half width of a window about one resonance (dimensionless frequency).
@@ -138,10 +139,8 @@ impl Tongue {
     ) -> Self {
         let centre = published.frequency(resonance);
         // Denser towards the resonance, where the boundary bends.
-        let frequencies = || {
-            let across = (0..POINTS).map(|i| 2.0 * i as f64 / (POINTS - 1) as f64 - 1.0);
-            across.map(|u| centre + half_width * (0.3 * u + 0.7 * u * u * u))
-        };
+        let frequencies =
+            || equally_spaced((-1.0, 1.0), POINTS).map(|u| centre + half_width * (0.3 * u + 0.7 * u * u * u));
         let place = |omega: f64, beta: Option<f64>| PlotPoint::new(omega, beta.unwrap_or(f64::NAN));
         Self {
             resonance,

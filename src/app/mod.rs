@@ -13,6 +13,8 @@ pub mod text;
 pub mod theme;
 pub mod view;
 pub mod widgets;
+#[cfg(all(feature = "window", not(target_arch = "wasm32")))]
+pub mod window;
 
 mod bench;
 mod caption;
@@ -24,14 +26,17 @@ mod comparison;
 pub mod crew;
 mod curves;
 pub mod embed;
+pub mod errand;
 mod exporting;
 mod figures;
+mod following;
 mod history;
 mod keyboard;
 mod layout;
 mod looks;
 mod map;
 pub mod mirror;
+mod moment;
 mod panels;
 mod questions;
 mod reading;
@@ -41,6 +46,7 @@ mod report;
 mod session;
 pub mod sharing;
 pub mod speaking;
+mod speech;
 mod steps;
 
 use std::cell::RefCell;
@@ -52,11 +58,14 @@ use bench::Bench;
 use command::{Command, Commands};
 use crew::Crew;
 use embed::Embed;
+use errand::Errand;
+use history::{Hand, History};
 use lessons::Course;
 use live::Live;
+use moment::Moment;
 use panels::Context;
 use session::{Session, Status};
-use sharing::Errand;
+use speech::Speech;
 use view::{Tab, View};
 
 use crate::export::Format;
@@ -70,7 +79,7 @@ pub struct App {
     course: Course,
     live: Live,
     notice: Option<String>,
-    history: history::History<steps::Moment>,
+    history: History<Moment>,
     /// What the address asks to be shown of the page; all of it when absent.
     embed: Option<Embed>,
     /// The page's own address, without a fragment; empty outside a browser.
@@ -79,7 +88,7 @@ pub struct App {
     errands: Vec<Errand>,
     /// Cards to be saved at the end of this frame.
     exports: Vec<(String, Format)>,
-    speech: speaking::Speech,
+    speech: Speech,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool, bool)>,
     /// Whether the system asks for high contrast.
@@ -94,7 +103,7 @@ impl App {
         let mut session = Session::default();
         session.ask(&view.scenario);
         let (bench, course) = (Bench::default(), Course::restore(stored));
-        let (history, live) = (history::History::default(), Live::default());
+        let (history, live) = (History::default(), Live::default());
         let (address, errands, exports) = (String::new(), Vec::new(), Vec::new());
         let mut app = Self {
             view,
@@ -110,7 +119,7 @@ impl App {
             errands,
             exports,
             styled: None,
-            speech: speaking::Speech::default(),
+            speech: Speech::default(),
             system_contrast: false,
         };
         app.style(context);
@@ -195,7 +204,7 @@ impl App {
         self.find_words();
         widgets::touch::begin_frame(ui.ctx());
         let mut commands = Commands::new();
-        let hand = steps::hand(ui.ctx());
+        let hand = Hand::of(ui.ctx());
         self.history.begin_frame(hand);
         self.go_on(ui.ctx());
         let (pinned, dark) = (self.session.pinned.is_some(), theme::tokens(ui).dark);

@@ -4,8 +4,8 @@ use super::map::Boundaries;
 use super::session::Shown;
 use super::widgets::number::{significant, with_unit};
 use crate::app::text::{fill, motion_in_words, reworded, tr};
-use crate::dynamics::motion::Motion;
-use crate::dynamics::verdict::{ForcedSummary, Verdict, Warning, force_law_warning};
+use crate::dynamics::attractors::motion::Motion;
+use crate::dynamics::attractors::verdict::{ForcedSummary, Verdict, Warning, force_law_warning};
 use crate::dynamics::{Instability, Outcome};
 use crate::theory::Resonance;
 

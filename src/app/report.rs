@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::crew::Studies;
 use super::session::{Session, Status};
 use super::view::View;
-use crate::dynamics::poincare::{PhasePoint, Recurrence};
-use crate::dynamics::summary::Summary;
+use crate::dynamics::attractors::poincare::{PhasePoint, Recurrence};
+use crate::dynamics::integration::summary::Summary;
 use crate::dynamics::{Outcome, Verdict};
 use crate::scenario::Scenario;
 

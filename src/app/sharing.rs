@@ -1,11 +1,12 @@
 //! Links and scenario files: what goes out of the page, and what comes in.
 
 use super::App;
+use super::errand::Errand;
 use super::lessons::course;
 use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
-use crate::app::text::{Language, fill, reworded, tr};
+use crate::app::text::{fill, reworded, tr};
 use crate::questions::design::measured;
 use crate::questions::input::{self, NoText};
 
@@ -15,23 +16,6 @@ const FILE_NAME: &str = "harvester-scenario.json";
 const LARGEST_FILE: usize = 1 << 20;
 /// What belongs to the room and the eyes, and not into a file.
 const LOOKS: [&str; 5] = ["lang", "dark", "contrast", "projector", "beam_moves"];
-
-/// What only the browser can do.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Errand {
-    /// Save a text as a file of this name and type.
-    Save(String, &'static str, String),
-    /// Make a picture of this drawing with so many times its pixels, and save it under this name.
-    Picture(String, String, u8),
-    /// Let these samples between -1 and 1 be heard after those before them; none ends the sound.
-    Sound(Vec<f32>),
-    /// Ask for a file, and pass it to [`App::open_file`].
-    Open,
-    /// Fetch what this language needs, and pass it to [`App::learn`].
-    Fetch(Language),
-    /// Have the page's own markup in this language, with these texts by their English ones, as JSON.
-    Speak(Language, String),
-}
 
 /// Bytes at the beginning of a file that [`look`] needs.
 pub const FIRST: usize = measured::FIRST;

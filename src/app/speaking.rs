@@ -4,20 +4,9 @@ use std::sync::Arc;
 
 use egui::epaint::text::FontData;
 
-use super::sharing::Errand;
+use super::errand::Errand;
 use super::text::{self, Language, fill, marked, page};
 use super::{App, fonts};
-
-/// What is known of languages beside the view.
-#[derive(Default)]
-pub(super) struct Speech {
-    /// The browser's.
-    preferred: Language,
-    /// The one asked for last.
-    asked: Option<Language>,
-    /// The Chinese font, once it was needed.
-    pub ideographs: Option<Arc<FontData>>,
-}
 
 /// What a language needs beside the page.
 pub struct Words {

@@ -3,41 +3,11 @@
 //! Not undone is what suits the room and the eyes rather than the question: the theme, the size of type, whether the
 //! beam moves. Those stay as they are when steps are taken back.
 
-use std::rc::Rc;
-
-use egui::Event;
-
 use super::App;
 use super::command::Command;
 use super::history::Hand;
-use super::session::Shown;
+use super::moment::Moment;
 use super::view::View;
-
-/// What a step restores: the view, less its looks, and the curves kept for comparison.
-#[derive(Clone)]
-pub(super) struct Moment {
-    view: View,
-    pinned: Option<Rc<Shown>>,
-}
-
-impl PartialEq for Moment {
-    fn eq(&self, other: &Self) -> bool {
-        let pins = (self.pinned.as_ref().map(Rc::as_ptr), other.pinned.as_ref().map(Rc::as_ptr));
-        self.view == other.view && pins.0 == pins.1
-    }
-}
-
-/// What pointers and keys do in this frame.
-pub(super) fn hand(context: &egui::Context) -> Hand {
-    context.input(|input| {
-        let key = |event: &Event| matches!(event, Event::Key { pressed: true, repeat: false, .. });
-        let pointer = &input.pointer;
-        Hand {
-            presses: pointer.any_pressed() || input.events.iter().any(key),
-            holds: pointer.any_down() || pointer.any_released() || !input.keys_down.is_empty(),
-        }
-    })
-}
 
 impl App {
     fn moment(&self) -> Moment {

@@ -4,6 +4,8 @@
 //! deficiencies; each theme tunes their lightness to its background. Curves differ in line style as well.
 
 mod palette;
+pub mod radius;
+pub mod size;
 mod style;
 
 pub use palette::{BLACK, DARK, LIGHT, Tokens, WHITE};
@@ -25,25 +27,5 @@ pub fn tokens_in(context: &egui::Context) -> &'static Tokens {
     Tokens::in_force(&context.global_style().visuals)
 }
 
-/// Text sizes in points, at zoom 1. A projector view multiplies them through the zoom factor of the context.
-pub mod size {
-    /// Plain text, numbers and buttons.
-    pub const BODY: f32 = 13.5;
-    /// Hints, legends, tick labels.
-    pub const SMALL: f32 = 11.5;
-    /// Titles of cards and tabs.
-    pub const TITLE: f32 = 14.0;
-    /// The verdict's first word, dialogue titles.
-    pub const HEADING: f32 = 18.0;
-}
-
 /// Zoom factor that makes the page legible from the back row of a lecture hall.
 pub const PROJECTOR_ZOOM: f32 = 1.4;
-
-/// Corner radii in points.
-pub mod radius {
-    /// Cards and dialogues.
-    pub const CARD: u8 = 8;
-    /// Fields, buttons and pills.
-    pub const CONTROL: u8 = 6;
-}

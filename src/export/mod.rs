@@ -5,7 +5,6 @@
 
 pub mod axis;
 pub mod figure;
-pub mod number;
 pub mod provenance;
 pub mod report;
 pub mod snippet;
@@ -30,6 +29,8 @@ impl Format {
     /// All, with their names.
     pub const ALL: [(Self, &'static str); 3] = [(Self::Png, "PNG"), (Self::Svg, "SVG"), (Self::Csv, "CSV")];
 }
+
+pub use harvester_solver::number;
 
 pub use axis::Axis;
 pub use figure::{Figure, Layer, Pen, Rgba};

@@ -81,7 +81,7 @@ impl Provenance {
         let mut rows: Vec<(&'static str, String)> = Dimension::ALL
             .iter()
             .map(|dimension| {
-                let value = dimension.get(&device);
+                let value = device.get(*dimension);
                 let value = if value.is_finite() { exact(rounded(value)) } else { "open circuit".to_owned() };
                 let unit = match (dimension, self.scenario.scaling) {
                     (Dimension::Coupling, ElectricalScaling::AsPrinted) => "N/V",

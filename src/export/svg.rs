@@ -1,11 +1,13 @@
 //! Plots as SVG: on white, with texts as texts, so that they print and can be edited.
 
+mod frame;
 mod layers;
 mod legend;
 mod words;
 
 use std::fmt::Write as _;
 
+use frame::{Frame, INK, LEFT, RIGHT, TEXT};
 use layers::layer;
 use legend::keys;
 use words::{hex, text, wrapped};
@@ -13,22 +15,15 @@ use words::{hex, text, wrapped};
 use super::markup::{escape, short};
 use super::{Axis, Figure, Rgba};
 
-/// Width of a drawing of its own and what is kept free left and right of a plot, in pixels.
+/// Width of a drawing of its own, in pixels.
 pub const WIDTH: f64 = 640.0;
-const LEFT: f64 = 76.0;
-const RIGHT: f64 = 20.0;
 /// Height over width that a plot may have.
 const ASPECTS: (f64, f64) = (0.42, 0.9);
-/// Sizes of texts, and heights of their lines.
+/// Sizes of texts, and height of a line of the caption.
 const TITLE: f64 = 15.0;
-const TEXT: f64 = 12.0;
 const SMALL: f64 = 9.5;
-const KEY_ROW: f64 = 18.0;
 const CAPTION_ROW: f64 = 13.0;
-/// Width of a letter over its size, on average, and for the widest.
-const LETTER: f64 = 0.52;
 const FONT: &str = "'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
-const INK: Rgba = [20, 26, 32, 255];
 const FAINT: Rgba = [85, 98, 112, 255];
 const GRID: Rgba = [226, 231, 236, 255];
 
@@ -71,32 +66,6 @@ pub(super) fn drawing_with(
         escape(title),
     );
     (out, [width, height])
-}
-
-/// Where a plot is drawn.
-struct Frame {
-    left: f64,
-    top: f64,
-    width: f64,
-    height: f64,
-    ranges: [(f64, f64); 2],
-}
-
-impl Frame {
-    fn x(&self, x: f64) -> f64 {
-        let (low, high) = self.ranges[0];
-        // Far outside, drawings lose their precision; the clipping does not see the difference.
-        self.left + self.width * ((x - low) / (high - low)).clamp(-20.0, 20.0)
-    }
-
-    fn y(&self, y: f64) -> f64 {
-        let (low, high) = self.ranges[1];
-        self.top + self.height * (1.0 - ((y - low) / (high - low)).clamp(-20.0, 20.0))
-    }
-
-    fn place(&self, [x, y]: [f64; 2]) -> String {
-        format!("{} {}", short(self.x(x)), short(self.y(y)))
-    }
 }
 
 /// Draws one plot from `top` down; returns where it ends.

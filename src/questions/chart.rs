@@ -8,10 +8,11 @@ use super::motion_chart::{MotionChart, MotionQuestion, SIZES};
 use super::motions::Coordinate;
 use super::multiplier_chart::{self, MultiplierChart};
 use super::question::Question;
-use crate::dynamics::motion::Cell;
+use crate::dynamics::attractors::motion::Cell;
 use crate::model::Parameter;
 use crate::scenario::Scenario;
 use crate::scheduler::{Budget, complete_within};
+use crate::spacing::equally_spaced;
 
 /// A chart; the scenario's beta and omega play no role. A start is followed until its motion is known, whatever the
 /// scenario's duration.
@@ -115,7 +116,7 @@ impl Question for Chart {
         } else {
             (self.motions(scenario, budget)?, None)
         };
-        let places = |span: &Span| (0..span.count).map(|index| span.at(index)).collect();
+        let places = |span: &Span| equally_spaced(span.range(), span.count).collect();
         Ok(ChartAnswer { omega: places(&self.omega), beta: places(&self.beta), values, argument })
     }
 }

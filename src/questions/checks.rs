@@ -6,6 +6,7 @@ use super::error::RequestError;
 use crate::dynamics::Motion;
 use crate::model::{ModelError, Parameter, ReducedSystem};
 use crate::scenario::{END_TIME, Scenario};
+use crate::spacing::between;
 
 /// Equally spaced values, both ends included.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -32,7 +33,7 @@ impl Span {
 
     /// The value of this index from 0.
     pub fn at(&self, index: usize) -> f64 {
-        self.from + (self.to - self.from) * index as f64 / (self.count - 1) as f64
+        between(self.range(), index, self.count)
     }
 
     /// Checks the values of `parameter`, and that there are no more than `most`.

@@ -3,7 +3,7 @@
 
 use nanoserde::{DeBin, SerBin};
 
-use crate::dynamics::curves::{
+use crate::dynamics::bifurcations::curves::{
     Curve, KnownCurves, Line, Search, Start, bifurcations_along_line, search_lines, trace_curve,
 };
 use crate::dynamics::{Axis, OrbitError, Plane};

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::design::DesignError;
 use super::input::{self, FieldError, JsonError};
-use crate::dynamics::verdict::VerdictError;
+use crate::dynamics::attractors::verdict::VerdictError;
 use crate::dynamics::{IntegrationError, OrbitError};
 use crate::model::{ModelError, Parameter};
 use crate::theory::TheoryError;

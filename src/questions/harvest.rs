@@ -19,11 +19,12 @@ use super::response::{Response, ResponseCurve, ResponsePoint, check_range};
 use super::subject::ACCELERATION_UNIT;
 use super::sweep::{COUNTS, Direction, Sweep, SweepStudy};
 use crate::dynamics::Motion;
-use crate::dynamics::signature::Signature;
-use crate::dynamics::sweep::{Dwell, SweepPoint};
+use crate::dynamics::attractors::signature::Signature;
+use crate::dynamics::attractors::sweep::{Dwell, SweepPoint};
 use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Budget, Failure, Order, Piece, Study, complete_within};
+use crate::spacing;
 
 /// Frequencies of a piece of work.
 const PER_PIECE: usize = 8;
@@ -486,8 +487,7 @@ impl HarvestStudy {
     }
 
     fn omega(&self, index: usize) -> f64 {
-        let (low, high) = self.window;
-        low + (high - low) * index as f64 / (self.starts.len() - 1) as f64
+        spacing::between(self.window, index, self.starts.len())
     }
 
     fn next_starts(&mut self) -> Option<Order<Self>> {

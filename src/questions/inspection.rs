@@ -94,7 +94,7 @@ fn drawn(amplitudes: &[f64], spacing: f64, top: f64) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::motion::Motion;
+    use crate::dynamics::attractors::motion::Motion;
     use crate::model::ParameterSet;
 
     #[test]

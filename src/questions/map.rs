@@ -12,6 +12,7 @@ use crate::model::{Limits, ModelError};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::{Mosaic, Place};
 use crate::scheduler::{Budget, Order, Study, complete_within};
+use crate::spacing::between;
 
 /// Columns and rows a map may have.
 pub const SIZES: (usize, usize) = (2, 256);
@@ -167,7 +168,7 @@ impl DesignMap {
 
     /// The two variables' values at a cell.
     pub fn values(&self, (column, row): Place) -> [f64; 2] {
-        let share = |index: usize, count: usize| index as f64 / (count - 1) as f64;
+        let share = |index: usize, count: usize| between((0.0, 1.0), index, count);
         let [x, y] = [0, 1].map(|axis| self.question.variables[axis]);
         [x.at(share(column, self.size.0)), y.at(share(row, self.size.1))]
     }

@@ -7,7 +7,7 @@ use super::design::materials::{MaterialRow, material_row};
 use super::error::RequestError;
 use super::question::Question;
 use super::subject::ACCELERATION_UNIT;
-use crate::dynamics::tongue::Window;
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::model::materials::Ceramic;
 use crate::scenario::Scenario;
 use crate::scheduler::{Budget, Failure, Piece, Table, complete_within};

@@ -1,12 +1,13 @@
 //! A chart of the motion reached, over any two numbers of the device, its excitation and its start.
 
 use super::motions::{Coordinate, MotionPlane, Motions, at_place};
-use crate::dynamics::motion::{Cell, Motion};
-use crate::dynamics::signature::Signature;
+use crate::dynamics::attractors::motion::{Cell, Motion};
+use crate::dynamics::attractors::signature::Signature;
 use crate::model::{ModelError, Units};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::{Mosaic, Place};
 use crate::scheduler::{Order, Study};
+use crate::spacing::between;
 
 /// Columns and rows a chart may have.
 pub const SIZES: (usize, usize) = (2, 512);
@@ -61,10 +62,6 @@ impl MotionQuestion {
     fn plane(&self) -> MotionPlane {
         MotionPlane { scenario: self.scenario.clone(), x: self.x.0, y: self.y.0 }
     }
-}
-
-fn between((low, high): (f64, f64), index: usize, count: usize) -> f64 {
-    low + (high - low) * index as f64 / (count - 1) as f64
 }
 
 /// A cell and the group it belongs to: neighbours of different groups are refined first.

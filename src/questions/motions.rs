@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::response::check_range;
-use crate::dynamics::signature::Signature;
+use crate::dynamics::attractors::signature::Signature;
 use crate::dynamics::{ESCAPE_DISPLACEMENT, Effort, IntegrationError, Settler, reach};
 use crate::model::{Dimension, ModelError, Parameter, ReducedSystem, state_dimension};
 use crate::scenario::{Scenario, counted};
@@ -65,7 +65,7 @@ impl Coordinate {
     pub fn value(self, scenario: &Scenario) -> Option<f64> {
         match self {
             Self::Parameter(parameter) => Some(parameter.get(&scenario.parameters)),
-            Self::Dimension(dimension) => scenario.device().ok().map(|device| dimension.get(&device)),
+            Self::Dimension(dimension) => scenario.device().ok().map(|device| device.get(dimension)),
             Self::Start(i) => scenario.initial.as_ref().map_or(Some(0.0), |start| start.get(i).copied()),
         }
     }
@@ -109,7 +109,7 @@ pub fn at_place(
             Coordinate::Parameter(parameter) => *parameter.get_mut(&mut scenario.parameters) = *value,
             Coordinate::Dimension(dimension) => {
                 let mut device = scenario.device()?;
-                *dimension.get_mut(&mut device) = *value;
+                *device.get_mut(dimension) = *value;
                 scenario.set_device(device, scenario.scaling)?;
             }
             Coordinate::Start(i) => {

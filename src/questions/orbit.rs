@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::checks::{count, state};
 use super::error::RequestError;
 use super::question::Question;
-use crate::dynamics::period_map::MOST_PERIODS;
+use crate::dynamics::orbits::period_map::MOST_PERIODS;
 use crate::dynamics::{self, Instability};
 use crate::scenario::Scenario;
 use crate::scheduler::Budget;

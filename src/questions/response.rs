@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::branch::MOST_EFFORT;
+use crate::dynamics::bifurcations::branch::MOST_EFFORT;
 use crate::dynamics::{
     Bifurcation, Branch, BranchEnd, BranchPoint, Course, Instability, Orbit, OrbitError, follow_branch,
     follow_doubled,

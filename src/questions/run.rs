@@ -1,8 +1,8 @@
 //! The run behind the linked plots: computed in slices, so that a frame never waits for it.
 
-use crate::dynamics::collocation::Step;
-use crate::dynamics::poincare::{PhasePoint, Recurrence, recurrence};
-use crate::dynamics::summary::{Collector, Envelope, Summary};
+use crate::dynamics::attractors::poincare::{PhasePoint, Recurrence, recurrence};
+use crate::dynamics::integration::Step;
+use crate::dynamics::integration::summary::{Collector, Envelope, Summary};
 use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
 use crate::model::{ModelError, ReducedSystem};
 use crate::scenario::Scenario;

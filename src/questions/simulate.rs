@@ -6,12 +6,13 @@ use serde::{Deserialize, Serialize};
 use super::checks::count;
 use super::error::RequestError;
 use super::question::Question;
-use crate::dynamics::collocation::Step;
-use crate::dynamics::rk4::{RungeKutta4, amplification};
+use crate::dynamics::integration::Step;
+use crate::dynamics::integration::rk4::{RungeKutta4, amplification};
 use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
 use crate::model::{ModelError, ReducedSystem};
 use crate::scenario::Scenario;
 use crate::scheduler::Budget;
+use crate::spacing::equally_spaced;
 use crate::theory::CoupledModes;
 
 const TOLERANCES: (f64, f64) = (1e-10, 1e-2);
@@ -44,7 +45,7 @@ impl Default for Simulate {
         Self {
             t_end: 600.0,
             method: Method::Adaptive,
-            steps_per_period: crate::dynamics::rk4::PAPER_STEPS_PER_PERIOD,
+            steps_per_period: crate::dynamics::integration::rk4::PAPER_STEPS_PER_PERIOD,
             tolerance: Settings::default().tolerance,
             samples: 101,
         }
@@ -213,9 +214,8 @@ impl Simulate {
 
     /// The times of the samples that a run ending at `end` reaches, and last `end` itself.
     fn sample_times(&self, end: f64) -> Vec<f64> {
-        let count = self.samples;
-        let time = |i: usize| self.t_end * i as f64 / (count - 1) as f64;
-        let mut times: Vec<f64> = (0..count - 1).map(time).filter(|time| *time < end).collect();
+        let all = equally_spaced((0.0, self.t_end), self.samples).take(self.samples - 1);
+        let mut times: Vec<f64> = all.filter(|time| *time < end).collect();
         times.push(end);
         times
     }

@@ -8,10 +8,11 @@ use super::checks::{check_ends, count, system};
 use super::error::{RequestError, failed};
 use super::question::Question;
 use super::response::{Response, ResponseCurve, response};
-use crate::dynamics::sweep::{Course, Dwell, SweepPoint, sweep};
+use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
 use crate::model::{Parameter, Shaking};
 use crate::scenario::Scenario;
 use crate::scheduler::{Budget, Failure, Order, Piece, Study, complete_within};
+use crate::spacing::equally_spaced;
 
 /// Numbers of values a sweep may have.
 pub const COUNTS: (usize, usize) = (2, 2000);
@@ -91,10 +92,10 @@ impl Sweep {
 
     /// The values in the order of `direction`.
     pub fn values(&self, direction: Direction) -> Vec<f64> {
-        let value = |i: usize| self.from + (self.to - self.from) * i as f64 / (self.count - 1) as f64;
+        let values = equally_spaced(self.range(), self.count);
         match direction {
-            Direction::Up => (0..self.count).map(value).collect(),
-            Direction::Down => (0..self.count).rev().map(value).collect(),
+            Direction::Up => values.collect(),
+            Direction::Down => values.rev().collect(),
         }
     }
 
@@ -175,7 +176,7 @@ impl Piece for Stretch {
 
     fn carry_out(&self) -> Result<Swept, Failure> {
         let (_, start) = self.scenario.validate()?;
-        let course = Course {
+        let course = SweepCourse {
             set: &self.scenario.parameters,
             model: self.scenario.model,
             parameter: self.parameter,

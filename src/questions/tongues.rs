@@ -2,7 +2,7 @@
 
 use nanoserde::{DeBin, SerBin};
 
-use crate::dynamics::tongue::{Tongue, Window};
+use crate::dynamics::bifurcations::tongue::{Tongue, Window};
 use crate::dynamics::trace_tongue;
 use crate::scenario::Scenario;
 use crate::scheduler::{Failure, Order, Piece, Study};

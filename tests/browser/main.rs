@@ -1,5 +1,7 @@
 //! The built page in a real Chromium and a real Firefox. `make test` builds the page and runs these; plain `cargo test` skips them.
 
+#![allow(clippy::expect_used, clippy::unwrap_used, reason = "helpers of tests panic as tests do")]
+
 mod agreement;
 mod axe;
 mod design;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reference values for tests/figures, by a computation that shares nothing with the program.
+"""Reference values for tests/slow/figures, by a computation that shares nothing with the program.
 
 From the paper's ten numbers it builds the N-mode system itself (equilibrium of the magnets, roots of the
 transcendental equation, modal integrals by quadrature), integrates it from rest with SciPy's DOP853 and reads

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reference values for the tests of solver/src/dynamics/propagator.rs, in 60-digit arithmetic.
+"""Reference values for the tests of solver/src/dynamics/integration/propagator.rs, in 60-digit arithmetic.
 
 The linear system of those tests, two modes beside a circuit that is 1e7 times faster, is carried over a step under a
 polynomial rest force by the exponential of an augmented matrix: the polynomial's monomials are added to the state

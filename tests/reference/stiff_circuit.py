@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reference value for the test of a circuit far faster than the beam in tests/integration.rs: the exact force law
+"""Reference value for the test of a circuit far faster than the beam in tests/fast/integration.rs: the exact force law
 with c = 1e-9, kappa = theta = 1e-2 (kappa / c = 1e7), alpha = 1e-4, beta = 1e-2, omega = 8, from rest to t = 20 by
 SciPy's implicit Radau method, at three tolerances.
 

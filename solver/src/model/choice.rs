@@ -29,6 +29,12 @@ impl Default for ModelChoice {
 }
 
 impl ModelChoice {
+    /// That of a `system`.
+    pub fn of(system: &ReducedSystem) -> Self {
+        let ReducedSystem { modes, law, residual_moment, .. } = system;
+        Self { modes: modes.len(), force: *law, residual_moment: *residual_moment }
+    }
+
     /// The reduced system of `set` under this choice: raw input becomes valid here.
     ///
     /// # Errors

@@ -194,8 +194,60 @@ impl Device {
     /// [`ModelError::OutOfRange`] or [`ModelError::NotFinite`] for the first that fails.
     pub fn check(&self) -> Result<(), ModelError> {
         for dimension in Dimension::ALL {
-            dimension.check(dimension.get(self))?;
+            dimension.check(self.get(dimension))?;
         }
         Ok(())
+    }
+
+    /// The value of a dimension, in its field's unit.
+    pub const fn get(&self, dimension: Dimension) -> f64 {
+        match dimension {
+            Dimension::FluxDensity => self.flux_density,
+            Dimension::Permeability => self.permeability,
+            Dimension::MagnetLength => self.magnet_length,
+            Dimension::MagnetRadius => self.magnet_radius,
+            Dimension::MagnetArea => self.magnet_area,
+            Dimension::MagnetDistance => self.magnet_distance,
+            Dimension::BeamLength => self.beam_length,
+            Dimension::BeamMass => self.beam_mass,
+            Dimension::TipMass => self.tip_mass,
+            Dimension::YoungsModulus => self.youngs_modulus,
+            Dimension::SecondMoment => self.second_moment,
+            Dimension::Viscosity => self.viscosity,
+            Dimension::Gravity => self.gravity,
+            Dimension::Capacitance => self.capacitance,
+            Dimension::Resistance => self.resistance,
+            Dimension::Coupling => self.coupling,
+            Dimension::BaseAmplitude => self.base_amplitude,
+            Dimension::Frequency => self.frequency,
+            Dimension::CeramicThickness => self.ceramic_thickness,
+            Dimension::LossTangent => self.loss_tangent,
+        }
+    }
+
+    /// The place of a dimension, to write to.
+    pub const fn get_mut(&mut self, dimension: Dimension) -> &mut f64 {
+        match dimension {
+            Dimension::FluxDensity => &mut self.flux_density,
+            Dimension::Permeability => &mut self.permeability,
+            Dimension::MagnetLength => &mut self.magnet_length,
+            Dimension::MagnetRadius => &mut self.magnet_radius,
+            Dimension::MagnetArea => &mut self.magnet_area,
+            Dimension::MagnetDistance => &mut self.magnet_distance,
+            Dimension::BeamLength => &mut self.beam_length,
+            Dimension::BeamMass => &mut self.beam_mass,
+            Dimension::TipMass => &mut self.tip_mass,
+            Dimension::YoungsModulus => &mut self.youngs_modulus,
+            Dimension::SecondMoment => &mut self.second_moment,
+            Dimension::Viscosity => &mut self.viscosity,
+            Dimension::Gravity => &mut self.gravity,
+            Dimension::Capacitance => &mut self.capacitance,
+            Dimension::Resistance => &mut self.resistance,
+            Dimension::Coupling => &mut self.coupling,
+            Dimension::BaseAmplitude => &mut self.base_amplitude,
+            Dimension::Frequency => &mut self.frequency,
+            Dimension::CeramicThickness => &mut self.ceramic_thickness,
+            Dimension::LossTangent => &mut self.loss_tangent,
+        }
     }
 }

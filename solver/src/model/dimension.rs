@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Device, ModelError, Parameter};
+use super::{ModelError, Parameter};
 
-/// Which dimension of a [`Device`].
+/// Which dimension of a [`super::Device`].
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
 )]
@@ -77,7 +77,7 @@ const POSITIVE: (f64, f64) = (1e-15, 1e15);
 const NOT_NEGATIVE: (f64, f64) = (0.0, 1e15);
 
 impl Dimension {
-    /// All of them, in the order of [`Device`].
+    /// All of them, in the order of [`super::Device`].
     pub const ALL: [Self; 20] = [
         Self::FluxDensity,
         Self::Permeability,
@@ -168,7 +168,7 @@ impl Dimension {
     }
 
     /// The one of the ten numbers that decides this dimension of a device, the others given (Eq. 8); `None` where they
-    /// leave it open (see [`Device::from_parameters`]).
+    /// leave it open (see [`super::Device::from_parameters`]).
     pub const fn decided_by(self) -> Option<Parameter> {
         match self {
             Self::Viscosity => Some(Parameter::Alpha),
@@ -188,57 +188,5 @@ impl Dimension {
     /// The dimension of this field name.
     pub fn named(field: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|dimension| dimension.field() == field)
-    }
-
-    /// The value in `device`, in the field's unit.
-    pub const fn get(self, device: &Device) -> f64 {
-        match self {
-            Self::FluxDensity => device.flux_density,
-            Self::Permeability => device.permeability,
-            Self::MagnetLength => device.magnet_length,
-            Self::MagnetRadius => device.magnet_radius,
-            Self::MagnetArea => device.magnet_area,
-            Self::MagnetDistance => device.magnet_distance,
-            Self::BeamLength => device.beam_length,
-            Self::BeamMass => device.beam_mass,
-            Self::TipMass => device.tip_mass,
-            Self::YoungsModulus => device.youngs_modulus,
-            Self::SecondMoment => device.second_moment,
-            Self::Viscosity => device.viscosity,
-            Self::Gravity => device.gravity,
-            Self::Capacitance => device.capacitance,
-            Self::Resistance => device.resistance,
-            Self::Coupling => device.coupling,
-            Self::BaseAmplitude => device.base_amplitude,
-            Self::Frequency => device.frequency,
-            Self::CeramicThickness => device.ceramic_thickness,
-            Self::LossTangent => device.loss_tangent,
-        }
-    }
-
-    /// The place in `device`, to write to.
-    pub const fn get_mut(self, device: &mut Device) -> &mut f64 {
-        match self {
-            Self::FluxDensity => &mut device.flux_density,
-            Self::Permeability => &mut device.permeability,
-            Self::MagnetLength => &mut device.magnet_length,
-            Self::MagnetRadius => &mut device.magnet_radius,
-            Self::MagnetArea => &mut device.magnet_area,
-            Self::MagnetDistance => &mut device.magnet_distance,
-            Self::BeamLength => &mut device.beam_length,
-            Self::BeamMass => &mut device.beam_mass,
-            Self::TipMass => &mut device.tip_mass,
-            Self::YoungsModulus => &mut device.youngs_modulus,
-            Self::SecondMoment => &mut device.second_moment,
-            Self::Viscosity => &mut device.viscosity,
-            Self::Gravity => &mut device.gravity,
-            Self::Capacitance => &mut device.capacitance,
-            Self::Resistance => &mut device.resistance,
-            Self::Coupling => &mut device.coupling,
-            Self::BaseAmplitude => &mut device.base_amplitude,
-            Self::Frequency => &mut device.frequency,
-            Self::CeramicThickness => &mut device.ceramic_thickness,
-            Self::LossTangent => &mut device.loss_tangent,
-        }
     }
 }

@@ -2,12 +2,14 @@
 
 use thiserror::Error;
 
+use crate::number::six_digits;
+
 /// A reason why a set of inputs describes no harvester that can be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ModelError {
     /// A number lies outside the range in which the model is meant to be used.
     #[error(
-        "{field} = {} is out of range: allowed are {} to {}{unit}", beyond(*value, *minimum, *maximum), digits(*minimum), digits(*maximum)
+        "{field} = {} is out of range: allowed are {} to {}{unit}", beyond(*value, *minimum, *maximum), six_digits(*minimum), six_digits(*maximum)
     )]
     OutOfRange {
         /// Name of the input as the user sees it.
@@ -22,7 +24,7 @@ pub enum ModelError {
         unit: &'static str,
     },
     /// A number is NaN or infinite.
-    #[error("{field} is not a finite number: allowed are {} to {}{unit}", digits(*minimum), digits(*maximum))]
+    #[error("{field} is not a finite number: allowed are {} to {}{unit}", six_digits(*minimum), six_digits(*maximum))]
     NotFinite {
         /// Name of the input as the user sees it.
         field: String,
@@ -53,7 +55,7 @@ pub enum ModelError {
     },
     /// Attracting magnets pull the tip in: no equilibrium exists.
     #[error(
-        "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {} and h = {} the gap d = {d:.4} must be larger than {smallest:.4}", digits(*c0), digits(*h)
+        "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {} and h = {} the gap d = {d:.4} must be larger than {smallest:.4}", six_digits(*c0), six_digits(*h)
     )]
     PullIn {
         /// Magnet strength c_0 (dimensionless, negative: attracting).
@@ -67,7 +69,7 @@ pub enum ModelError {
     },
     /// The tip spring is so negative that the straight beam is unstable.
     #[error(
-        "the magnet softens the beam past buckling: c1 = {} must be greater than -3, the stiffness of the beam's tip", digits(*c1)
+        "the magnet softens the beam past buckling: c1 = {} must be greater than -3, the stiffness of the beam's tip", six_digits(*c1)
     )]
     Buckled {
         /// Linear magnet stiffness c_1 (dimensionless).
@@ -75,7 +77,7 @@ pub enum ModelError {
     },
     /// The sag under gravity closes the gap of a device.
     #[error(
-        "under gravity the tip sags {} m, which closes the magnets' distance of {} m", digits(*sag), digits(*distance)
+        "under gravity the tip sags {} m, which closes the magnets' distance of {} m", six_digits(*sag), six_digits(*distance)
     )]
     GapClosed {
         /// Sag of the tip (m).
@@ -107,16 +109,9 @@ impl ModelError {
     }
 }
 
-/// At most six significant digits, with an exponent where many zeros would stand.
-fn digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    let plain = rounded == 0.0 || !rounded.is_finite() || (1e-4..1e7).contains(&rounded.abs());
-    if plain { rounded.to_string() } else { format!("{rounded:e}") }
-}
-
 /// A value outside of its range in so many digits; in all where rounded it would seem allowed.
 fn beyond(value: f64, minimum: f64, maximum: f64) -> String {
-    let rounded = digits(value);
+    let rounded = six_digits(value);
     let seems_allowed = rounded.parse().is_ok_and(|rounded: f64| (minimum..=maximum).contains(&rounded));
     if seems_allowed { value.to_string() } else { rounded }
 }

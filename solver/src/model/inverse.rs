@@ -146,7 +146,7 @@ mod tests {
                     let device = Device { resistance, repelling, tip_mass: 0.0, ..Default::default() };
                     let back = Device::from_parameters(&base, &device.dimensionless(scaling)?, scaling)?;
                     for dimension in Dimension::ALL {
-                        let (a, b) = (dimension.get(&device), dimension.get(&back));
+                        let (a, b) = (device.get(dimension), back.get(dimension));
                         assert!(a == b || (a - b).abs() <= 1e-12 * a.abs(), "{dimension:?}: {a} {b}");
                     }
                     assert_eq!(back.repelling, repelling);

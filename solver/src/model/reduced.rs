@@ -1,9 +1,7 @@
 //! The N-mode truncation (Eqs. 27-34): coefficients, right-hand side and its Jacobian side by side.
 
 use super::force::{Exact, Polynomial};
-use super::{
-    Equilibrium, ForceLaw, Magnet, ModeSet, ModelChoice, ModelError, Parameters, RestForce, state_dimension,
-};
+use super::{Equilibrium, ForceLaw, Magnet, ModeSet, ModelError, Parameters, RestForce, state_dimension};
 
 /// The N-mode system, ready to be integrated.
 ///
@@ -59,11 +57,6 @@ impl ReducedSystem {
         let p = &self.parameters;
         let residual = if on { p.theta * p.theta * self.modes.residual_compliance(self.c1) } else { 0.0 };
         Self { capacitance: p.c + residual, residual_moment: on, ..self }
-    }
-
-    /// Which truncation this is.
-    pub fn choice(&self) -> ModelChoice {
-        ModelChoice { modes: self.modes.len(), force: self.law, residual_moment: self.residual_moment }
     }
 
     /// The same device under another excitation: everything that depends on the structure is kept.

@@ -46,7 +46,7 @@ pub(super) fn device(scenario: &Scenario) -> Result<Device, ModelError> {
     let same = |stored: &Device| {
         stored.repelling == derived.repelling
             && Dimension::ALL.iter().all(|dimension| {
-                let (a, b) = (dimension.get(stored), dimension.get(&derived));
+                let (a, b) = (stored.get(*dimension), derived.get(*dimension));
                 a == b || (a - b).abs() <= ROUNDING * a.abs()
             })
     };

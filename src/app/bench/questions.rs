@@ -6,6 +6,7 @@ use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::view::design::{Aim, Side};
 use crate::app::widgets::number::round_significant;
+
 use crate::model::{Dimension, Parameter, Shaking};
 use crate::questions::checks::Span;
 use crate::questions::design::find::{FindQuestion, Objective, Variable};
@@ -122,7 +123,7 @@ pub(in crate::app) fn range_of(view: &View, session: &Session, side: &Side) -> (
     let (low, high) = side.range.unwrap_or_else(|| {
         let (usual_low, usual_high) = side.dimension.usual();
         let device = view.scenario.device().unwrap_or_default();
-        let value = side.dimension.get(&device);
+        let value = device.get(side.dimension);
         match side.dimension {
             Dimension::Frequency => {
                 let (low, high) = window(view, session);

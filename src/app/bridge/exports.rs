@@ -7,7 +7,7 @@ use js_sys::{Function, Promise};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-use super::{RUNNING, Running};
+use super::running::{RUNNING, Running};
 use crate::app::App;
 use crate::app::crew::Crew;
 

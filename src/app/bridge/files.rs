@@ -5,8 +5,10 @@ use wasm_bindgen::prelude::Closure;
 use wasm_bindgen::{JsCast as _, JsValue};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Url};
 
+use super::running::{change, context};
 use super::shell;
-use crate::app::sharing::{self, Errand};
+use crate::app::errand::Errand;
+use crate::app::sharing;
 use crate::app::speaking::Words;
 use crate::app::text::Language;
 
@@ -48,17 +50,15 @@ fn document() -> Option<web_sys::Document> {
 async fn picture(name: String, drawing: String, scale: u8) {
     let drawn = shell::save_picture(&name, &drawing, scale);
     if wasm_bindgen_futures::JsFuture::from(drawn).await.is_err() {
-        super::change(|app, _| {
-            app.tell("This browser could not make the picture. SVG and CSV need no help of it.")
-        });
+        change(|app, _| app.tell("This browser could not make the picture. SVG and CSV need no help of it."));
     }
 }
 
 /// Fetches what a language needs.
 async fn learn(language: Language) {
     let words = words(language).await;
-    let context = super::context();
-    super::change(|app, _| {
+    let context = context();
+    change(|app, _| {
         if let Some(context) = context {
             app.learn(&context, language, words);
         }
@@ -128,7 +128,7 @@ fn open() -> Option<()> {
 
 async fn read(file: web_sys::File) {
     let contents = contents(&file).await;
-    super::change(|app, _| app.open_file(&file.name(), contents));
+    change(|app, _| app.open_file(&file.name(), contents));
 }
 
 /// What a file holds. Its beginning is looked at first: what cannot be opened is not read.

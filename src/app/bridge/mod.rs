@@ -11,6 +11,7 @@ pub mod exports;
 mod files;
 mod frames;
 mod mirror;
+mod running;
 mod shell;
 mod storage;
 pub mod workers;
@@ -25,19 +26,7 @@ use super::App;
 use super::clock::milliseconds;
 use super::crew::{Crew, Inline, Workers};
 use frames::{Probe, Recorder};
-
-/// What the exported functions need to reach.
-struct Running {
-    app: Rc<RefCell<App>>,
-    crew: Rc<RefCell<Crew>>,
-    context: egui::Context,
-    recorder: Recorder,
-    keeper: Rc<RefCell<storage::Keeper>>,
-}
-
-thread_local! {
-    static RUNNING: RefCell<Option<Running>> = const { RefCell::new(None) };
-}
+use running::{RUNNING, Running, change};
 
 /// Starts the app on the element with the id `canvas`. Failures are shown on the page, not returned. In a worker, which
 /// has no page, nothing happens: it waits for orders.
@@ -102,25 +91,6 @@ fn crew(context: egui::Context) -> Rc<RefCell<Crew>> {
         );
         RefCell::new(Crew::new(workers))
     })
-}
-
-/// Changes the running app from outside of its frames. One that is busy or has crashed is left alone.
-fn change(with: impl FnOnce(&mut App, &mut storage::Keeper)) {
-    RUNNING.with_borrow(|slot| {
-        if let Some(running) = slot
-            && let Ok(mut app) = running.app.try_borrow_mut()
-            && let Ok(mut keeper) = running.keeper.try_borrow_mut()
-        {
-            with(&mut app, &mut keeper);
-            keeper.touch();
-            running.context.request_repaint();
-        }
-    });
-}
-
-/// The context of the running app.
-fn context() -> Option<egui::Context> {
-    RUNNING.with_borrow(|slot| slot.as_ref().map(|running| running.context.clone()))
 }
 
 /// Shows what the address asks for.

@@ -6,7 +6,7 @@ use crate::app::questions;
 use crate::app::session::Session;
 use crate::app::view::design::{DesignView, Page};
 use crate::app::view::{Panel, Tab, View};
-use crate::dynamics::tongue::Window;
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::questions::basin::BasinStudy;
 use crate::questions::chart::Quantity;
 use crate::questions::curves::CurvesStudy;

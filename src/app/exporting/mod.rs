@@ -11,8 +11,8 @@ use egui::{Context as Egui, RawInput, Rect, vec2};
 pub(super) use question::request;
 
 use super::App;
+use super::errand::Errand;
 use super::session::Status;
-use super::sharing::Errand;
 use super::view::{Tab, View};
 use super::widgets::number::exact;
 use super::widgets::recorder;

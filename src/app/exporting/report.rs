@@ -1,11 +1,11 @@
 //! The report: device, verdict, limits and the plots of Explore, for printing.
 
 use super::BUSY;
+use crate::app::errand::Errand;
 use crate::app::panels::design::safety::{Safety, in_words};
 use crate::app::panels::device;
 use crate::app::reading::Reading;
 use crate::app::session::Status;
-use crate::app::sharing::Errand;
 use crate::app::text::{fill, language, tr, within};
 use crate::app::view::design::Page;
 use crate::app::view::{Panel, Tab, View};
@@ -121,7 +121,7 @@ fn device_rows(view: &View) -> Vec<[String; 3]> {
     let Ok(found) = bench::device(&view.scenario) else { return Vec::new() };
     let row = |dimension: &Dimension| {
         let (name, symbol, unit, factor, _) = device::words(*dimension, view.scenario.scaling);
-        let value = factor * dimension.get(&found);
+        let value = factor * found.get(*dimension);
         let value = if value.is_finite() {
             format!("{} {unit}", typographic(&exact(round_significant(value, 5))))
         } else {

@@ -6,9 +6,9 @@ use serde_json::Value;
 use super::LessonId;
 use super::data::{Lesson, Step};
 use super::facts::facts;
+use crate::app::link;
 use crate::app::session::Session;
-use crate::app::view::{Tab, View};
-use crate::app::{App, link};
+use crate::app::view::View;
 use crate::dynamics::Verdict;
 
 /// What the user wants of the lessons.
@@ -97,7 +97,7 @@ impl Course {
     }
 
     /// Where to note what happens in the step in view.
-    fn note(&mut self, view: &View) -> &mut Progress {
+    pub(in crate::app) fn note(&mut self, view: &View) -> &mut Progress {
         if self.lesson != view.lesson {
             self.lesson = view.lesson;
             self.progress.clear();
@@ -107,10 +107,18 @@ impl Course {
         &mut self.progress[view.step]
     }
 
-    fn begin(&mut self, id: LessonId) {
+    /// A lesson begins, or begins again.
+    pub(in crate::app) fn begin(&mut self, id: LessonId) {
         self.lesson = Some(id);
         self.progress.clear();
         self.checked = None;
+    }
+
+    /// A lesson was gone through to its end.
+    pub(in crate::app) fn finish(&mut self, id: LessonId) {
+        if !self.is_finished(id) {
+            self.finished.push(id);
+        }
     }
 }
 
@@ -138,60 +146,14 @@ pub fn view_of(fragment: &str, present: &View) -> View {
     View { lesson: present.lesson, step: present.step, ..view }
 }
 
-impl App {
-    /// Does what a button of the lessons asks for.
-    pub(in crate::app) fn follow_lesson(&mut self, action: Action) {
-        match action {
-            Action::Begin(id) => {
-                self.course.begin(id);
-                (self.view.lesson, self.view.step) = (Some(id), 1);
-                self.set_step();
-            }
-            Action::GoTo(number) => {
-                let last = running(&self.view).map_or(1, |(_, lesson)| lesson.steps.len());
-                self.view.step = number.clamp(1, last);
-                self.set_step();
-            }
-            Action::Restart => self.set_step(),
-            Action::Show => {
-                if let Some(goal) = step(&self.view).and_then(|step| step.goal.as_ref()) {
-                    self.set_view(&goal.show);
-                }
-            }
-            Action::Answer(answer) => self.course.note(&self.view).answer = Some(answer),
-            Action::Leave => self.leave_lesson(),
-            Action::Finish => {
-                let id = self.view.lesson.filter(|id| !self.course.is_finished(*id));
-                self.course.finished.extend(id);
-                self.leave_lesson();
-                (self.view.tab, self.view.enlarged) = (Tab::Lessons, None);
-            }
-        }
-    }
-
-    fn leave_lesson(&mut self) {
-        (self.view.lesson, self.view.step) = (None, 1);
-    }
-
-    /// Sets the page as the step in view begins.
-    pub(in crate::app) fn set_step(&mut self) {
-        if let Some(fragment) = step(&self.view).and_then(|step| step.view.as_ref()) {
-            self.set_view(fragment);
-        }
-    }
-
-    fn set_view(&mut self, fragment: &str) {
-        let view = view_of(fragment, &self.view);
-        self.place(view, !fragment.contains("map="));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::App;
     use crate::app::command::Command;
     use crate::app::history::Hand;
     use crate::app::rehearsal;
+    use crate::app::view::Tab;
 
     fn app(stored: Option<&str>) -> App {
         rehearsal::app(&egui::Context::default(), stored)

@@ -1,4 +1,4 @@
-//! What a lesson's file holds. `tests/lessons/` runs every step; what it checks beside (`claims`) the page ignores.
+//! What a lesson's file holds. `tests/slow/lessons/` runs every step; what it checks beside (`claims`) the page ignores.
 //!
 //! Read by hand: derived readers of these types would weigh as much in the page as all the lessons.
 
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::facts::Condition;
+use super::condition::Condition;
 use crate::app::text::language;
 
 /// A text by language; `**` begins and ends what is set in bold.

@@ -3,91 +3,12 @@
 //!
 //! A lesson's name stands in links and in what browsers remember: it never changes.
 
+pub mod condition;
 pub mod course;
 pub mod data;
 pub mod facts;
-
-use std::fmt;
-use std::sync::OnceLock;
-
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+mod id;
 
 pub use course::Course;
 pub use data::Lesson;
-
-/// Steps that a lesson may have.
-pub const STEPS: usize = 12;
-
-/// Names and texts of the lessons, in the order in which they are offered.
-const SOURCES: [(&str, &str); 10] = [
-    ("resonance", include_str!("../../../assets/lessons/resonance.json")),
-    ("quadratic", include_str!("../../../assets/lessons/quadratic.json")),
-    ("first-tongue", include_str!("../../../assets/lessons/first-tongue.json")),
-    ("period-doubling", include_str!("../../../assets/lessons/period-doubling.json")),
-    ("torus", include_str!("../../../assets/lessons/torus.json")),
-    ("difference", include_str!("../../../assets/lessons/difference.json")),
-    ("boundaries", include_str!("../../../assets/lessons/boundaries.json")),
-    ("basins", include_str!("../../../assets/lessons/basins.json")),
-    ("escape", include_str!("../../../assets/lessons/escape.json")),
-    ("harvest", include_str!("../../../assets/lessons/harvest.json")),
-];
-
-/// A lesson by its name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct LessonId(usize);
-
-impl LessonId {
-    /// All of them, in the order in which they are offered.
-    pub fn all() -> impl Iterator<Item = Self> {
-        (0..SOURCES.len()).map(Self)
-    }
-
-    /// The lesson of that name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::all().find(|id| id.name() == name)
-    }
-
-    /// Its name, as in links.
-    pub fn name(self) -> &'static str {
-        SOURCES[self.0].0
-    }
-
-    /// Its place in the list, from 1.
-    pub fn number(self) -> usize {
-        self.0 + 1
-    }
-
-    /// The file it is read from.
-    pub fn source(self) -> &'static str {
-        SOURCES[self.0].1
-    }
-
-    /// What it says; `None` when its file is no lesson, which a test rules out.
-    pub fn lesson(self) -> Option<&'static Lesson> {
-        static LESSONS: OnceLock<Vec<Option<Lesson>>> = OnceLock::new();
-        let read = || Self::all().map(|id| Lesson::read(id.source())).collect();
-        LESSONS.get_or_init(read).get(self.0)?.as_ref()
-    }
-}
-
-impl Serialize for LessonId {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name())
-    }
-}
-
-impl<'de> Deserialize<'de> for LessonId {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(deserializer)?;
-        Self::named(&name).ok_or_else(|| {
-            let names: Vec<&str> = Self::all().map(Self::name).collect();
-            de::Error::custom(format!("`{name}` is not available: allowed are {}", names.join(", ")))
-        })
-    }
-}
-
-impl fmt::Display for LessonId {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name())
-    }
-}
+pub use id::{LessonId, STEPS};

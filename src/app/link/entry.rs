@@ -54,7 +54,7 @@ fn edited_device(view: &View, name: &str, edited: &View) -> Option<Result<Device
     let dimension = Dimension::named(name)?;
     let stored = edited.scenario.device.filter(|_| dimension.decided_by().is_some())?;
     Some(bench::device(&view.scenario).map(|mut device| {
-        *dimension.get_mut(&mut device) = dimension.get(&stored);
+        *device.get_mut(dimension) = stored.get(dimension);
         device
     }))
 }

@@ -7,7 +7,8 @@ use crate::app::lessons::STEPS;
 use crate::app::view::View;
 use crate::app::view::design::{FREQUENCIES, POWERS};
 use crate::app::view::live::{KICKS, SPEEDS, WINDOWS};
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::attractors::sweep::Dwell;
+use crate::export::number::shortest;
 use crate::model::{Dimension, ForceLaw, MAX_MODES, Parameter};
 use crate::questions::find::GENERATIONS;
 use crate::questions::sweep::COUNTS;
@@ -179,7 +180,7 @@ impl Field {
             Value::Bool(flag) => flag.to_string(),
             Value::String(word) => word.clone(),
             Value::Number(number) if matches!(self.kind, Kind::Whole(..)) => number.to_string(),
-            Value::Number(number) => number::shortest(number.as_f64().unwrap_or_default()),
+            Value::Number(number) => shortest(number.as_f64().unwrap_or_default()),
             Value::Array(values) => {
                 let texts: Vec<String> = values.iter().map(|value| self.write(value)).collect();
                 texts.join(" ")

@@ -1,10 +1,6 @@
-//! Numbers in links: the shortest text that reads back as the same number.
+//! Numbers read from links.
 
-/// `1e-4`, `0.005`, `8.096928443820915`: scientific where that saves more than one character.
-pub(super) fn shortest(value: f64) -> String {
-    let (plain, scientific) = (value.to_string(), format!("{value:e}"));
-    if scientific.len() + 1 < plain.len() { scientific } else { plain }
-}
+use crate::export::number::shortest;
 
 /// A finite number within `allowed`; otherwise what is wrong with it. `unit` has a leading blank or is empty.
 pub(super) fn read(text: &str, (minimum, maximum): (f64, f64), unit: &str) -> Result<f64, String> {

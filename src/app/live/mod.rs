@@ -194,7 +194,7 @@ impl Live {
         self.followed = Some(wanted);
         let Some(run) = &mut self.run else { return };
         let system = run.system();
-        let same_model = system.choice() == scenario.model;
+        let same_model = ModelChoice::of(system) == scenario.model;
         let made = if same_model {
             system.with_numbers(scenario.parameters)
         } else {

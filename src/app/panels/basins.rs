@@ -12,7 +12,7 @@ use crate::app::view::Panel;
 use crate::app::widgets::number::{round_significant, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{attractor_row, draw_raster, raster, recorder};
-use crate::dynamics::motion::Motion;
+use crate::dynamics::attractors::motion::Motion;
 use crate::questions::basin::{Attractor, BasinStudy};
 use crate::scenario::Scenario;
 use crate::scheduler::Study as _;
@@ -159,7 +159,7 @@ fn start(scenario: &Scenario) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::motion::Cell;
+    use crate::dynamics::attractors::motion::Cell;
 
     #[test]
     fn a_class_has_its_colour_of_the_charts_and_two_of_a_class_differ() {

@@ -19,7 +19,7 @@ use crate::app::widgets::{
 };
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
-use crate::dynamics::motion::{Cell, Motion};
+use crate::dynamics::attractors::motion::{Cell, Motion};
 use crate::questions::motion_chart::MotionChart;
 use crate::questions::multiplier_chart::MultiplierChart;
 use crate::scheduler::Study as _;

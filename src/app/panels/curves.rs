@@ -3,7 +3,7 @@
 use egui::Ui;
 use egui_plot::{PlotBounds, PlotPoint};
 
-use super::{Context, sweep};
+use super::{Context, parameter};
 use crate::app::command::Command;
 use crate::app::text::{fill, reworded, tr};
 use crate::app::view::Panel;
@@ -12,7 +12,7 @@ use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips_after, legend};
 use crate::app::{colours, questions};
 use crate::dynamics::Instability;
-use crate::dynamics::curves::Criticality;
+use crate::dynamics::bifurcations::curves::Criticality;
 use crate::model::Parameter;
 use crate::questions::curves::{CurvesStudy, PARAMETERS};
 use crate::scheduler::Study as _;
@@ -37,7 +37,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let [mut x, mut y] = context.view.plane;
     let before = [x, y];
-    let choices = PARAMETERS.map(|parameter| (parameter, sweep::title(parameter).1));
+    let choices = PARAMETERS.map(|parameter| (parameter, parameter::title(parameter).1));
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         chips_after(ui, tr("across"), tr("Horizontal parameter"), &mut x, &choices);
@@ -66,7 +66,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(question) = questions::curves(context.view, context.session) else { return };
     let [x_axis, y_axis] = *question.plane.axes();
     let titled = |parameter: Parameter| {
-        let (name, symbol) = sweep::title(parameter);
+        let (name, symbol) = parameter::title(parameter);
         Axis::new(name, symbol)
     };
     let (x, y) = (titled(x_axis.parameter), titled(y_axis.parameter));

@@ -42,11 +42,11 @@ pub(super) fn choose_units(context: &mut Context<'_>, ui: &mut Ui) {
 fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension, scaling: ElectricalScaling) -> bool {
     let (name, symbol, unit, factor, tooltip) = words(dimension, scaling);
     let (low, high) = dimension.usual();
-    let present = dimension.get(device);
+    let present = device.get(dimension);
     let present = if present.is_finite() { present } else { high };
     let mut value = round(factor * present);
     let (low, high) = (round(factor * low).min(value), round(factor * high).max(value));
-    let default = round(factor * dimension.get(&Device::default()));
+    let default = round(factor * Device::default().get(dimension));
     let slider = ParameterSlider::new(name, symbol, &mut value, low..=high)
         .default_value(default)
         .unit(unit)
@@ -62,7 +62,7 @@ fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension, scaling: Elect
     };
     let changed = slider.show(ui).changed;
     if changed {
-        *dimension.get_mut(device) = value / factor;
+        *device.get_mut(dimension) = value / factor;
     }
     changed
 }

@@ -6,7 +6,7 @@ use super::Context;
 use crate::app::text::{reworded, tr};
 use crate::app::view::Panel;
 use crate::app::{fonts, theme};
-use crate::dynamics::evidence::{Evidence, Source};
+use crate::dynamics::attractors::evidence::{Evidence, EvidenceSource};
 
 /// Draws the card.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -53,17 +53,17 @@ fn row(ui: &mut Ui, title: &str, sign: &str, colour: egui::Color32, text: &str) 
     });
 }
 
-fn title(source: Source) -> &'static str {
+fn title(source: EvidenceSource) -> &'static str {
     match source {
-        Source::Run => tr("Run"),
-        Source::Multipliers => tr("Multipliers"),
-        Source::Recurrence => tr("Recurrence"),
-        Source::Points => tr("Poincaré points"),
-        Source::Beside => tr("Other starts"),
-        Source::Rotation => tr("Rotation number"),
-        Source::ZeroOne => tr("0-1 test"),
-        Source::Exponent => tr("Lyapunov exponent"),
-        Source::Spectrum => tr("Spectrum"),
+        EvidenceSource::Run => tr("Run"),
+        EvidenceSource::Multipliers => tr("Multipliers"),
+        EvidenceSource::Recurrence => tr("Recurrence"),
+        EvidenceSource::Points => tr("Poincaré points"),
+        EvidenceSource::Beside => tr("Other starts"),
+        EvidenceSource::Rotation => tr("Rotation number"),
+        EvidenceSource::ZeroOne => tr("0-1 test"),
+        EvidenceSource::Exponent => tr("Lyapunov exponent"),
+        EvidenceSource::Spectrum => tr("Spectrum"),
     }
 }
 
@@ -73,10 +73,10 @@ const BESIDE: &str = "rounding: ";
 /// What it says, in the reader's language; a spectrum names its lines one by one.
 fn says(piece: &Evidence) -> String {
     let says = strip(&piece.says);
-    if piece.source == Source::Spectrum {
+    if piece.source == EvidenceSource::Spectrum {
         return says.split(", ").map(reworded).collect::<Vec<_>>().join(", ");
     }
-    if let Some((before, ends)) = says.split_once(BESIDE).filter(|_| piece.source == Source::Beside) {
+    if let Some((before, ends)) = says.split_once(BESIDE).filter(|_| piece.source == EvidenceSource::Beside) {
         let ends: Vec<String> = ends.split("; ").map(reworded).collect();
         return reworded(&format!("{before}{BESIDE}{}", ends.join("; ")));
     }

@@ -19,6 +19,7 @@ pub(super) mod live;
 pub(super) mod multipliers;
 pub(super) mod orbit_diagram;
 pub(super) mod paper;
+mod parameter;
 mod phase_plane;
 pub(super) mod phase_portrait;
 mod plots;

@@ -13,6 +13,7 @@ use crate::app::widgets::number::significant;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::questions::inspection::Multipliers;
+use crate::spacing::equally_spaced;
 
 /// Points of the circle.
 const CIRCLE: usize = 181;
@@ -38,10 +39,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     if let Some(forced) = &found.forced {
         ui.label(egui::RichText::new(in_words(forced)).small().color(theme::tokens(ui).text_weak));
     }
-    let circle: Vec<PlotPoint> = (0..CIRCLE)
-        .map(|i| TAU * i as f64 / (CIRCLE - 1) as f64)
-        .map(|angle| PlotPoint::new(angle.cos(), angle.sin()))
-        .collect();
+    let circle: Vec<PlotPoint> =
+        equally_spaced((0.0, TAU), CIRCLE).map(|angle| PlotPoint::new(angle.cos(), angle.sin())).collect();
     let places = |found: Option<&Multipliers>| -> Vec<PlotPoint> {
         found
             .map_or_else(Vec::new, |found| found.values.iter().map(|[x, y]| PlotPoint::new(*x, *y)).collect())

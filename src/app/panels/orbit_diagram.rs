@@ -3,7 +3,7 @@
 use egui::{RichText, Ui};
 use egui_plot::{PlotPoint, VLine};
 
-use super::{Context, sweep};
+use super::{Context, parameter};
 use crate::app::panels::computing;
 use crate::app::text::{fill, tr};
 use crate::app::theme;
@@ -11,7 +11,7 @@ use crate::app::view::Panel;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Motion;
-use crate::dynamics::sweep::SweepPoint;
+use crate::dynamics::attractors::sweep::SweepPoint;
 use crate::questions::sweep::{Direction, SweepStudy};
 use crate::scheduler::Study as _;
 
@@ -42,7 +42,7 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
     }
     let ways = [Direction::Up, Direction::Down].map(|direction| strobe(study, direction, settled));
     let open = both(|direction| strobe(study, direction, |point| !settled(point)));
-    let (name, symbol) = sweep::title(study.question().parameter);
+    let (name, symbol) = parameter::title(study.question().parameter);
     let (x, y) = (Axis::new(name, symbol), Axis::new(tr("voltage at t = 2πk/ω"), "v").unit("V"));
     let range = study.question().range();
     let colour = theme::tokens(ui).ruler;

@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::sweep::PARAMETERS;
+use super::parameter::PARAMETERS;
 use super::{Context, figure_boundaries, figure_panels, grid, tables};
 use crate::app::command::Command;
 use crate::app::figures::{self, FIGURES, Figure};

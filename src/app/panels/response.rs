@@ -4,7 +4,7 @@ use egui::Ui;
 use egui_plot::{PlotPoint, VLine};
 
 use super::orbit_diagram::settled;
-use super::{Context, orbit_diagram, sweep};
+use super::{Context, orbit_diagram, parameter};
 use crate::app::crew::Followed;
 use crate::app::text::{fill, tr};
 use crate::app::theme;
@@ -12,7 +12,7 @@ use crate::app::view::{Output, Panel};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Instability;
-use crate::dynamics::sweep::SweepPoint;
+use crate::dynamics::attractors::sweep::SweepPoint;
 use crate::model::ReducedSystem;
 use crate::questions::response::{ResponseCurve, ResponsePoint};
 use crate::questions::sweep::{Direction, SweepStudy};
@@ -96,7 +96,7 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     let marks: Vec<(String, [f64; 2])> = branches.iter().flat_map(|curve| marks(curve, &measure)).collect();
     let ways = [Direction::Up, Direction::Down].map(|direction| reached(study, direction, &measure, settled));
     let open = orbit_diagram::both(|direction| reached(study, direction, &measure, |point| !settled(point)));
-    let (name, symbol) = sweep::title(study.question().parameter);
+    let (name, symbol) = parameter::title(study.question().parameter);
     let (x, y) = (Axis::new(name, symbol), measure.axis());
     let range = study.question().range();
     let colour = theme::tokens(ui).ruler;

@@ -3,28 +3,16 @@
 use egui::Ui;
 
 use super::frequency::FREQUENCIES;
+use super::parameter::{PARAMETERS, title};
 use super::{Context, grid, plots, verdict};
 use crate::app::command::Command;
 use crate::app::questions;
 use crate::app::text::tr;
 use crate::app::view::{Output, Panel, SweepView};
 use crate::app::widgets::{Card, ParameterSlider, chips_after};
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::attractors::sweep::Dwell;
 use crate::model::Parameter;
 
-/// The parameters that can be swept, with their symbols.
-pub(super) const PARAMETERS: [(Parameter, &str); 10] = [
-    (Parameter::Omega, "ω"),
-    (Parameter::Beta, "β"),
-    (Parameter::Alpha, "α"),
-    (Parameter::D, "d"),
-    (Parameter::C0, "c₀"),
-    (Parameter::H, "h"),
-    (Parameter::Eta, "η"),
-    (Parameter::C, "c"),
-    (Parameter::Kappa, "κ"),
-    (Parameter::Theta, "θ"),
-];
 /// Periods thrown away and kept.
 const HOLDS: [(Dwell, &str); 3] = [
     (Dwell { discarded: 60, kept: 32 }, "60 + 32"),
@@ -46,24 +34,6 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     choices(context, ui);
     ui.add_space(grid::GAP);
     plots::cards(context, ui, &PANELS);
-}
-
-/// The symbol of a parameter, and its name as an axis title.
-pub(super) fn title(parameter: Parameter) -> (&'static str, &'static str) {
-    let name = match parameter {
-        Parameter::Alpha => tr("damping"),
-        Parameter::Beta => tr("excitation amplitude"),
-        Parameter::Omega => tr("excitation frequency"),
-        Parameter::C0 => tr("magnet strength"),
-        Parameter::D => tr("gap"),
-        Parameter::H => tr("magnet length"),
-        Parameter::Eta => tr("tip mass"),
-        Parameter::C => tr("capacitance"),
-        Parameter::Kappa => tr("load conductance"),
-        Parameter::Theta => tr("coupling"),
-    };
-    let symbol = PARAMETERS.iter().find(|(other, _)| *other == parameter).map_or("", |(_, symbol)| symbol);
-    (name, symbol)
 }
 
 fn choices(context: &mut Context<'_>, ui: &mut Ui) {

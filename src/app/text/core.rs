@@ -4,7 +4,7 @@
 //! Here each is known by the words between its values. One that is not known stays English.
 
 use super::{fill_with, is_english, marked, tr};
-use crate::dynamics::motion::Motion;
+use crate::dynamics::attractors::motion::Motion;
 
 /// The sentences, the more special before the more general. A value may be another sentence.
 const SENTENCES: [&str; 133] = [

@@ -3,7 +3,8 @@
 use egui::style::{HandleShape, Selection, Style, TextCursorStyle, WidgetVisuals, Widgets};
 use egui::{Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, Visuals};
 
-use super::{Tokens, radius, size};
+use super::palette::Tokens;
+use super::{radius, size};
 use crate::app::fonts;
 
 pub(super) fn style(tokens: &Tokens) -> Style {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::attractors::sweep::Dwell;
 use crate::model::{ModelError, Parameter};
 use crate::questions::sweep::COUNTS;
 use crate::scenario::counted;

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use egui::{Color32, Context, Id, TextureId};
 use egui_plot::PlotUi;
 
-use super::legend::Series;
+use super::series::Series;
 use crate::app::theme;
 use crate::export::figure::{Cells, Key};
 use crate::export::{Axis, Figure, Layer, Rgba};

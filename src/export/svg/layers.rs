@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use super::frame::{Frame, INK, TEXT};
 use super::words::{filled, hex, stroke, text, width};
-use super::{Frame, INK, TEXT};
+
 use crate::export::figure::{Anchor, Layer, finite_runs};
 use crate::export::markup::short;
 use crate::export::picture::data_address;

@@ -2,12 +2,15 @@
 
 use std::fmt::Write as _;
 
+use super::frame::{INK, LEFT, TEXT};
 use super::layers::{drawn, mark, marked};
 use super::words::{filled, text, width};
-use super::{INK, KEY_ROW, LEFT, TEXT};
 use crate::export::figure::{Key, Layer};
 use crate::export::markup::short;
 use crate::export::{Figure, Pen, Rgba};
+
+/// Height of a row.
+const KEY_ROW: f64 = 18.0;
 
 /// One entry of the legend: what is drawn before its text, and how wide it is.
 struct Entry<'a> {

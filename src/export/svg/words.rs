@@ -2,9 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::LETTER;
 use crate::export::Rgba;
 use crate::export::markup::{escape, short};
+
+/// Width of a letter over its size, on average, and for the widest.
+const LETTER: f64 = 0.52;
 
 pub(super) fn text(
     out: &mut String,

@@ -2,7 +2,7 @@
 //! a line across the jump.
 
 use super::{DesignError, HarvestPoint, Plant};
-use crate::dynamics::sweep::{Course, Dwell, sweep};
+use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, sweep};
 use crate::dynamics::{Effort, reach};
 use crate::model::{Parameter, Shaking};
 use crate::scenario::Scenario;
@@ -141,7 +141,7 @@ fn swept(
     let Scenario { parameters, model, .. } = &plant.scenario;
     let rest = vec![0.0; model.system(*parameters)?.dimension()];
     let (set, parameter, shaking) = (parameters, Parameter::Omega, plant.shaking);
-    let course = Course { set, model: *model, parameter, shaking, start: &rest, dwell };
+    let course = SweepCourse { set, model: *model, parameter, shaking, start: &rest, dwell };
     let (points, state) = sweep(course, values, state)?;
     let last = points.last().filter(|point| !point.ended);
     let point = last.map(|point| HarvestPoint::of_sweep(plant, point));

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 
 use super::{DesignError, Plant};
-use crate::dynamics::motion::Reached;
+use crate::dynamics::attractors::motion::Reached;
 use crate::dynamics::{Effort, IntegrationError, Motion, Settings, Trajectory, reach};
 use crate::model::materials::dielectric_conductance;
 use crate::model::{ParameterSet, ReducedSystem};

@@ -1,6 +1,6 @@
 //! Why a design question has no answer.
 
-use crate::dynamics::sweep::SweepError;
+use crate::dynamics::attractors::sweep::SweepError;
 use crate::dynamics::{IntegrationError, OrbitError};
 use crate::model::ModelError;
 use crate::theory::TheoryError;

@@ -4,6 +4,8 @@
 //! because the candidates of a generation are independent. The random numbers of a generation are drawn when it is made,
 //! in order, so that the course does not depend on who computes what first.
 
+use fastrand::Rng;
+
 /// Weight of the difference.
 const WEIGHT: f64 = 0.7;
 /// Probability that a candidate takes a coordinate from the mutant.
@@ -12,7 +14,7 @@ const CROSSING: f64 = 0.9;
 /// A population and the candidates that challenge it.
 #[derive(Debug, Clone)]
 pub struct Evolution {
-    random: SplitMix,
+    random: Rng,
     population: Vec<Vec<f64>>,
     ranks: Vec<(f64, f64)>,
     trials: Vec<Vec<f64>>,
@@ -23,15 +25,13 @@ impl Evolution {
     /// `first` one where given.
     pub fn new(dimension: usize, size: usize, seed: u64, first: Option<Vec<f64>>) -> Self {
         let size = size.max(4);
-        let mut random = SplitMix(seed);
+        let mut random = Rng::with_seed(seed);
         let mut trials = vec![vec![0.0; dimension]; size];
         for axis in 0..dimension {
             let mut shares: Vec<usize> = (0..size).collect();
-            for i in (1..size).rev() {
-                shares.swap(i, random.below(i + 1));
-            }
+            random.shuffle(&mut shares);
             for (trial, share) in trials.iter_mut().zip(shares) {
-                trial[axis] = (share as f64 + random.unit()) / size as f64;
+                trial[axis] = (share as f64 + random.f64()) / size as f64;
             }
         }
         if let Some(first) = first {
@@ -88,7 +88,7 @@ impl Evolution {
         let mut others: [usize; 3] = [i; 3];
         for k in 0..3 {
             loop {
-                let other = self.random.below(size);
+                let other = self.random.usize(..size);
                 if other != i && !others[..k].contains(&other) {
                     others[k] = other;
                     break;
@@ -96,10 +96,10 @@ impl Evolution {
             }
         }
         let dimension = self.population[i].len();
-        let sure = self.random.below(dimension);
+        let sure = self.random.usize(..dimension);
         let mut trial = self.population[i].clone();
         for (axis, value) in trial.iter_mut().enumerate() {
-            let taken = self.random.unit() < CROSSING;
+            let taken = self.random.f64() < CROSSING;
             if taken || axis == sure {
                 let [a, b, c] = others.map(|other| self.population[other][axis]);
                 let mutant = a + WEIGHT * (b - c);
@@ -112,30 +112,6 @@ impl Evolution {
             }
         }
         trial
-    }
-}
-
-/// Steele, Lea & Flood's SplitMix64: eight lines that pass the usual tests, the same on every machine.
-#[derive(Debug, Clone)]
-pub(super) struct SplitMix(pub(super) u64);
-
-impl SplitMix {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In [0, 1).
-    pub(super) fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// In 0..count; the bias of the remainder is far below what a search can feel.
-    fn below(&mut self, count: usize) -> usize {
-        (self.next() % count.max(1) as u64) as usize
     }
 }
 

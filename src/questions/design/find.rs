@@ -8,11 +8,12 @@ use super::harvest::{Lasting, lasting};
 use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
 use crate::dynamics::Motion;
-use crate::dynamics::tongue::Window;
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::model::limits::Standing;
 use crate::model::{Limits, ModelError};
 use crate::questions::motions::{Coordinate, at_place};
 use crate::scenario::{Scenario, counted};
+use crate::spacing::equally_spaced;
 use crate::theory::Resonance;
 
 /// Violation of a candidate without any motion to judge: worse than any that has one.
@@ -194,12 +195,11 @@ fn band(
     question: &FindQuestion,
     plant: &Plant,
     least: f64,
-    (from, to): (f64, f64),
+    range: (f64, f64),
     count: usize,
 ) -> Result<Evaluation, DesignError> {
     let (mut curve, mut violation) = (Vec::with_capacity(count), 0.0_f64);
-    for i in 0..count {
-        let frequency = from + (to - from) * i as f64 / (count - 1) as f64;
+    for frequency in equally_spaced(range, count) {
         let Some((found, violated)) = lasting_at(question, plant, plant.units.omega(frequency)) else {
             return Ok(Evaluation::NOTHING);
         };

@@ -6,6 +6,7 @@ use super::{DesignError, Interval, Plant};
 use crate::dynamics::Balance;
 use crate::model::ReducedSystem;
 use crate::scenario::Scenario;
+use crate::spacing::equally_spaced;
 use crate::theory::{LinearResponse, spectrum::eigenvalues};
 
 /// Distances from a resonance, in its own widths, at which a curve has points.
@@ -159,15 +160,13 @@ fn peak(power: impl Fn(f64) -> f64, omegas: &[f64]) -> f64 {
 
 /// Equally spaced frequencies of the window, and more about the resonances of `system`.
 fn frequencies(system: &ReducedSystem, window: (f64, f64), count: usize) -> Result<Vec<f64>, DesignError> {
-    let (low, high) = window;
-    let last = count.max(2) - 1;
-    let mut omegas: Vec<f64> = (0..=last).map(|i| low + (high - low) * i as f64 / last as f64).collect();
+    let mut omegas: Vec<f64> = equally_spaced(window, count.max(2)).collect();
     for value in eigenvalues(system)?.into_iter().filter(|value| value.im > 0.0) {
         for distance in ABOUT_RESONANCE {
             omegas.extend([-1.0, 1.0].map(|side| value.im + side * distance * value.re.abs()));
         }
     }
-    omegas.retain(|omega| (low..=high).contains(omega));
+    omegas.retain(|omega| (window.0..=window.1).contains(omega));
     omegas.sort_by(f64::total_cmp);
     omegas.dedup();
     Ok(omegas)

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::harvest::{Lasting, lasting};
 use super::linear::highest_place;
 use super::{DesignError, Interval, Plant};
-use crate::dynamics::tongue::{Tongue, TonguePoint, Window};
+use crate::dynamics::bifurcations::tongue::{Tongue, TonguePoint, Window};
 use crate::dynamics::{critical_excitation, trace_tongue};
 use crate::model::materials::Ceramic;
 use crate::model::{Limits, Parameters, ReducedSystem};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Asked, Plant};
-use crate::dynamics::sweep::SweepPoint;
+use crate::dynamics::attractors::sweep::SweepPoint;
 use crate::questions::response::ResponsePoint;
 
 /// A point of a curve over frequency.

@@ -4,7 +4,7 @@
 //! Each round tries a step forth and back along orthogonal directions about every centre; a better place is taken, the
 //! step lengthened, and the same way tried again; where neither axes nor turned directions lead on it is shortened. In the unit cube; the trials of a round are independent.
 
-use super::evolution::SplitMix;
+use fastrand::Rng;
 
 /// First step, and the factors by which it grows and shrinks.
 const FIRST_STEP: f64 = 0.04;
@@ -24,7 +24,7 @@ struct Centre {
 /// The centres and the places tried about them.
 #[derive(Debug, Clone)]
 pub struct Polish {
-    random: SplitMix,
+    random: Rng,
     centres: Vec<Centre>,
     round: usize,
     trials: Vec<Vec<f64>>,
@@ -35,7 +35,7 @@ impl Polish {
     pub fn new(places: Vec<(Vec<f64>, (f64, f64))>, seed: u64) -> Self {
         let centre = |(place, rank)| Centre { place, rank, step: FIRST_STEP, onwards: None };
         let centres = places.into_iter().map(centre).collect();
-        let mut polish = Self { random: SplitMix(!seed), centres, round: 0, trials: Vec::new() };
+        let mut polish = Self { random: Rng::with_seed(!seed), centres, round: 0, trials: Vec::new() };
         polish.aim();
         polish
     }
@@ -69,7 +69,7 @@ impl Polish {
 
     fn aim(&mut self) {
         let dimension = self.centres.first().map_or(0, |centre| centre.place.len());
-        let random: Vec<f64> = (0..dimension).map(|_| 2.0 * self.random.unit() - 1.0).collect();
+        let random: Vec<f64> = (0..dimension).map(|_| 2.0 * self.random.f64() - 1.0).collect();
         let turned = self.round % 2 == 1;
         self.trials.clear();
         for centre in &self.centres {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
 use crate::dynamics::Effort;
-use crate::dynamics::tongue::Window;
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::dynamics::{Motion, reach};
 use crate::model::force::Exact;
 use crate::model::{ForceLaw, MAX_MODES, ModelChoice, ParameterSet, ReducedSystem};

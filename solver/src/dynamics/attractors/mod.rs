@@ -1,10 +1,41 @@
-//! What a start leads to.
+//! What motion a start leads to.
 //!
-//! * [`settle`] is the one answer to that question: every task and every tab asks it.
-//! * `neighbourhood` tells whether a run lies in the linear neighbourhood of a periodic motion, and what it does there.
-//! * [`rotation`] has means and frequencies by weighted Birkhoff averages, `zero_one` the 0-1 test for chaos.
+//! Read in this order:
+//!
+//! * [`motion`] has the classes, [`settle`] the one answer to that question: every task and every tab asks it.
+//! * What it decides by: `strobe` keeps the stroboscopic states of a run, whose recurrence is that of [`poincare`];
+//!   `neighbourhood` tells whether they lie in the linear neighbourhood of a periodic motion, and what they do there;
+//!   [`rotation`] has means and frequencies by weighted Birkhoff averages, `zero_one` the 0-1 test for chaos, [`lyapunov`]
+//!   the exponents, from the growth of `tangent` vectors. `meter` measures what does not repeat.
+//! * [`signature`] tells whether two starts lead to the same motion; [`sweep`] carries a motion from one value of a
+//!   parameter to the next.
+//! * [`spectrum`] has lines, [`spectral_label`] their names, [`voltage_spectrum`] those of a motion's voltage.
+//! * [`verdict`] is all that is known of a motion with its [`evidence`]; `inquiry` computes it.
+//!
+//! The uppermost room: it may use all others, and none of them uses it.
 
+pub mod evidence;
+mod inquiry;
+pub mod lyapunov;
+mod meter;
+pub mod motion;
 mod neighbourhood;
+pub mod poincare;
 pub mod rotation;
 pub mod settle;
+pub mod signature;
+pub mod spectral_label;
+pub mod spectrum;
+mod strobe;
+pub mod sweep;
+mod tangent;
+pub mod verdict;
+pub mod voltage_spectrum;
 mod zero_one;
+
+pub use inquiry::Inquiry;
+pub use lyapunov::{Exponent, Lyapunov};
+pub use motion::{Motion, Reached};
+pub use settle::{Effort, Settler, reach};
+pub use verdict::Verdict;
+pub use voltage_spectrum::VoltageSpectrum;

@@ -8,8 +8,8 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use crate::dynamics::strobe::Strobe;
-use crate::dynamics::{Orbit, OrbitError, OrbitSolver};
+use super::strobe::Strobe;
+use crate::dynamics::orbits::{Orbit, OrbitError, OrbitSolver};
 use crate::model::ReducedSystem;
 
 /// Distance from the orbit, relative to the amplitude of the run, beyond which nothing is asked.

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::spectrum::fourier_transform;
+use super::spectrum::fourier_transform;
 
 /// Frequencies, spread over a bin of the record's resolution, from which the largest is looked for.
 const PER_BIN: usize = 4;

@@ -16,18 +16,18 @@
 //! What no finite run can show: a chaotic transient that outlives the effort counts as chaotic, and a periodic motion of
 //! more than 64 excitation periods is never found.
 
+use super::lyapunov::{self, Exponent, KNOWN, Sign};
+use super::meter::Meter;
+use super::motion::{Motion, Reached, Undecided};
 use super::neighbourhood::{Neighbourhood, Relation};
 use super::rotation::{Rotation, disagreement, rotation, weighted_average};
+use super::signature::Signature;
+use super::strobe::Strobe;
+use super::tangent::Tangents;
 use super::zero_one::zero_one;
-use crate::dynamics::lyapunov::{self, Exponent, KNOWN, Sign};
-use crate::dynamics::meter::Meter;
-use crate::dynamics::motion::{Motion, Reached, Undecided};
-use crate::dynamics::newton::OrbitSolver;
-use crate::dynamics::period_map::{MOST_PERIODS, PeriodMap};
-use crate::dynamics::signature::Signature;
-use crate::dynamics::strobe::Strobe;
-use crate::dynamics::tangent::Tangents;
-use crate::dynamics::{Collocation, Instability, IntegrationError, Orbit, Outcome, Settings};
+use crate::dynamics::integration::{Collocation, IntegrationError, Outcome, Settings};
+use crate::dynamics::orbits::period_map::MOST_PERIODS;
+use crate::dynamics::orbits::{Instability, Measures, Orbit, OrbitSolver, PeriodMap};
 use crate::model::ReducedSystem;
 
 /// Excitation periods before the states are first looked at, between looks at least, and at most.
@@ -80,6 +80,8 @@ pub struct Effort {
     pub record: usize,
     /// Excitation periods that a motion must last to count as chaotic.
     pub lasting: usize,
+    /// How many times as long where a stable periodic motion is known beside it, on which a transient could end.
+    pub beside_stable: usize,
     /// Largest disagreement between the averages of the two halves of a torus' record, relative.
     pub agreement: f64,
     /// Integrator steps after which the start is given up as undecided.
@@ -89,12 +91,28 @@ pub struct Effort {
 impl Effort {
     /// For a chart of many cells.
     pub const fn cell() -> Self {
-        Self { tolerance: 1e-5, least: 0, record: 640, lasting: 3000, agreement: 1e-4, steps: 600_000 }
+        Self {
+            tolerance: 1e-5,
+            least: 0,
+            record: 640,
+            lasting: 3000,
+            beside_stable: 1,
+            agreement: 1e-4,
+            steps: 600_000,
+        }
     }
 
     /// For one motion.
     pub const fn full() -> Self {
-        Self { tolerance: 1e-8, least: 0, record: 1024, lasting: 24_000, agreement: 1e-6, steps: 4_000_000 }
+        Self {
+            tolerance: 1e-8,
+            least: 0,
+            record: 1024,
+            lasting: 24_000,
+            beside_stable: 4,
+            agreement: 1e-6,
+            steps: 4_000_000,
+        }
     }
 }
 
@@ -140,6 +158,7 @@ impl Settler {
             instants: 0,
             looks: 0,
             record: None,
+            resume: 0,
             lasting: None,
             waiting: None,
             notes: Vec::new(),
@@ -189,6 +208,8 @@ struct Run<'a> {
     instants: usize,
     looks: usize,
     record: Option<Record>,
+    /// Instant before which no record is begun.
+    resume: usize,
     /// Evidence of a chaotic motion that must still last.
     lasting: Option<Witnesses>,
     waiting: Option<Waiting>,
@@ -405,11 +426,11 @@ impl Run<'_> {
             (self.lasting, self.record) = (None, None);
         }
         if let Some(witnesses) = self.lasting {
-            let lasted = self.instants >= self.effort.lasting;
+            let lasted = self.instants >= self.lasting_least();
             return lasted.then(|| self.by_record(Motion::Chaotic, Some(witnesses)));
         }
         let Some(record) = &self.record else {
-            if self.is_worth_recording() {
+            if self.instants >= self.resume && self.is_worth_recording() {
                 let periods = self.effort.record.max(lyapunov::LEAST_PERIODS);
                 self.record = Some(Record::new(&self.settler.system, periods));
             }
@@ -438,8 +459,23 @@ impl Run<'_> {
             let periods = self.strobe.recurrence(&self.settler.system)?.period?;
             return Some(self.by_record(Motion::Periodic { periods }, Some(witnesses)));
         }
-        self.record = Some(Record::new(&self.settler.system, 2 * record.periods));
+        let longer = 2 * record.periods;
+        if witnesses.exponent.sign() == Sign::Negative {
+            // On its way to a periodic motion: until it must be there, tangent vectors would tell nothing new.
+            let period = self.settler.system.parameters.period();
+            let decay = PATIENCE / (-witnesses.exponent.value * period);
+            self.resume = (self.instants + longer).max(self.instants + decay.min(1e9) as usize);
+            self.record = None;
+        } else {
+            self.record = Some(Record::new(&self.settler.system, longer));
+        }
         None
+    }
+
+    /// Excitation periods that a motion must last to count as chaotic.
+    fn lasting_least(&self) -> usize {
+        let stable = self.settler.known.iter().any(|known| known.orbit.stable());
+        self.effort.lasting * if stable { self.effort.beside_stable } else { 1 }
     }
 
     /// Whether the last displacements of the tip look like a motion that has settled, or like one that does not.
@@ -515,6 +551,7 @@ impl Run<'_> {
             Some(Sign::Negative) => Undecided::TransientNotGone,
             Some(Sign::Zero) => Undecided::PointsScattered,
             Some(Sign::Positive) => Undecided::EvidenceDisagrees,
+            None if self.instants < self.resume => Undecided::TransientNotGone,
             Some(Sign::Open) | None => Undecided::ExponentOpen,
         };
         self.by_record(Motion::Undecided { why }, witnesses)
@@ -553,7 +590,7 @@ impl Run<'_> {
     }
 
     /// The numbers of the next periods, for a motion that was not recorded.
-    fn measured(&self) -> Option<crate::dynamics::orbit::Measures> {
+    fn measured(&self) -> Option<Measures> {
         const PERIODS: usize = 64;
         let mut integrator = self.integrator.clone();
         let mut meter = Meter::default();

@@ -10,7 +10,7 @@ use crate::app::text::Language;
 use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched};
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
 use crate::app::view::{Layer, MapWindow, Output, Panel, SweepView, Tab, View};
-use crate::dynamics::sweep::Dwell;
+use crate::dynamics::attractors::sweep::Dwell;
 use crate::model::materials::Ceramic;
 use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet};
 use crate::questions::curves;
@@ -50,7 +50,7 @@ fn device() -> impl Strategy<Value = Device> {
         |(numbers, repelling, open, ceramic)| {
             let mut device = Device { repelling, ceramic, ..Device::default() };
             for (dimension, number) in Dimension::ALL.into_iter().zip(numbers) {
-                *dimension.get_mut(&mut device) = number.unwrap_or(dimension.get(&device));
+                *device.get_mut(dimension) = number.unwrap_or(device.get(dimension));
             }
             if open {
                 device.resistance = f64::INFINITY;

@@ -3,6 +3,7 @@
 use egui::{Color32, Grid, RichText, Ui};
 use egui_plot::PlotUi;
 
+use super::held::held;
 use super::measure::Measure;
 use super::safety::Safety;
 use crate::app::bench::questions;
@@ -13,7 +14,6 @@ use crate::app::view::View;
 use crate::app::widgets::number::{round_significant, significant, with_unit};
 use crate::app::widgets::{Card, ParameterSlider, chips, plot_style};
 use crate::export::Pen;
-use crate::model::Shaking;
 use crate::questions::design::band::{half_power, total, usable};
 use crate::questions::design::point::powers;
 use crate::questions::design::{Bounds, HarvestPoint, Interval};
@@ -22,16 +22,6 @@ use crate::questions::sweep::Direction;
 
 /// Least power (W) on the slider.
 const LEAST: f64 = 1e-9;
-
-/// How the base is shaken over the frequencies: `at 0.155 g`, or `at 4.80 mm`.
-pub(super) fn held(view: &View) -> String {
-    let (units, p) = (view.scenario.units(), view.scenario.parameters);
-    let what = match questions::shaking(view) {
-        Shaking::Acceleration => format!("{} g", significant(units.acceleration(p.beta, p.omega), 3)),
-        Shaking::Amplitude => format!("{} mm", significant(units.millimetres(p.beta), 3)),
-    };
-    fill("at {what}", &[("what", &what)])
-}
 
 /// Draws the cards beside the curves.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {

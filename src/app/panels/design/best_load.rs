@@ -3,6 +3,7 @@
 use egui::{RichText, Ui};
 
 use super::going::{go_to, use_load};
+use super::held::held;
 use super::load::best_frequencies;
 use super::optimum::Optimum;
 use super::safety::Safety;
@@ -127,6 +128,6 @@ fn both(context: &mut Context<'_>, ui: &mut Ui) {
         }
         line(ui, tr("A start at rest may lead to another motion."));
     }
-    let held = super::bands::held(context.view);
+    let held = held(context.view);
     line(ui, &fill("Within the window of frequencies of the page Harvest, {held}.", &[("held", &held)]));
 }

@@ -4,7 +4,7 @@ use egui::Ui;
 use egui_plot::PlotPoint;
 
 use crate::app::panels::{Context, grid};
-use crate::app::text::tr;
+use crate::app::text::{marked, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::widgets::number::prefix;
@@ -12,10 +12,11 @@ use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::export::Pen;
 use crate::questions::design::trust::{LAWS, force_beyond_linear};
+use crate::spacing::equally_spaced;
 
-use super::trust::NAMES;
-
-/// What stands for each of the laws compared.
+/// Names of the laws compared, and what stands for each.
+pub(super) const NAMES: [&str; 4] =
+    [marked("quadratic"), marked("cubic"), marked("Taylor 5"), marked("exact")];
 const LINES: [Series; 4] = [Series::Published, Series::Coupled, Series::Best, Series::Exact];
 /// Points of a curve.
 const POINTS: usize = 161;
@@ -53,10 +54,8 @@ fn plot(context: &Context<'_>, ui: &mut Ui, (low, high, moves): (f64, f64, bool)
     let units = scenario.units();
     let newton = device.bending_stiffness() / device.beam_length.powi(2);
     let margin = if moves { MARGIN * (high - low) } else { 0.0 };
-    let places = |i: usize| low - margin + (high - low + 2.0 * margin) * i as f64 / (POINTS - 1) as f64;
-    let of = |law| {
-        (0..POINTS).map(places).filter_map(move |tip| Some((tip, force_beyond_linear(&system, law, tip)?)))
-    };
+    let places = equally_spaced((low - margin, high + margin), POINTS);
+    let of = |law| places.clone().filter_map(move |tip| Some((tip, force_beyond_linear(&system, law, tip)?)));
     let curves = LAWS.map(|law| of.clone()(law).collect::<Vec<_>>());
     let largest = curves[0].iter().map(|(_, force)| (newton * force).abs()).fold(0.0, f64::max);
     let (factor, sign) = prefix(largest);

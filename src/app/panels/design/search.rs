@@ -1,10 +1,12 @@
 //! A map of any result over two dimensions of the device, and the search for the best.
 
+mod digits;
 mod map;
 mod varied;
 
 use egui::{RichText, Ui};
 
+use self::digits::in_digits;
 pub(super) use self::map::show;
 use crate::app::bench::questions;
 use crate::app::command::Command;
@@ -12,7 +14,7 @@ use crate::app::panels::{Context, device, grid};
 use crate::app::text::{fill, reworded, tr};
 use crate::app::theme;
 use crate::app::view::design::Aim;
-use crate::app::widgets::number::{significant, with_unit};
+use crate::app::widgets::number::significant;
 use crate::app::widgets::{Card, chips};
 use crate::questions::design::find::Objective;
 use crate::questions::find::{Candidate, FindStudy};
@@ -127,23 +129,4 @@ fn result(context: &mut Context<'_>, ui: &mut Ui, study: &FindStudy, best: &Cand
             context.commands.push(Command::Find(false));
         }
     });
-}
-
-/// What the objective counts in.
-fn unit(aim: Aim) -> &'static str {
-    match aim {
-        Aim::Power => "W",
-        Aim::PerG2 => "W/g²",
-        Aim::Voltage => "V",
-        Aim::Band => "Hz",
-        Aim::Threshold => "",
-    }
-}
-
-fn in_digits(value: f64, aim: Aim) -> String {
-    if aim == Aim::Threshold {
-        format!("β = {}", significant(value, 3))
-    } else {
-        with_unit(value, unit(aim))
-    }
 }

@@ -2,11 +2,11 @@
 
 use egui::{Grid, RichText, Ui};
 
-use super::{LEAST_HEIGHT, force};
-
+use super::beside::LEAST_HEIGHT;
+use super::force::{self, NAMES};
 use crate::app::panels::computing;
 use crate::app::panels::{Context, grid};
-use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
+use crate::app::text::{fill, motion_in_words, reworded, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
 use crate::app::widgets::number::{significant, with_unit};
@@ -22,8 +22,6 @@ use crate::theory::Resonance;
 
 /// The model that stands for the truth.
 const BEST: (usize, ForceLaw) = (4, ForceLaw::Exact);
-pub(super) const NAMES: [&str; 4] =
-    [marked("quadratic"), marked("cubic"), marked("Taylor 5"), marked("exact")];
 /// Relative difference from the exact law with most modes that counts as a good one, and as a bad one.
 const GOOD: f64 = 0.05;
 const BAD: f64 = 0.25;

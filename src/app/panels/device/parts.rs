@@ -36,7 +36,7 @@ pub(in crate::app::panels) fn structure(context: &mut Context<'_>, ui: &mut Ui) 
 
 fn beam(ui: &mut Ui, device: &mut Device, scaling: ElectricalScaling) {
     let of =
-        |dimension: Dimension, device: &Device| short(words(dimension, scaling).3 * dimension.get(device));
+        |dimension: Dimension, device: &Device| short(words(dimension, scaling).3 * device.get(dimension));
     let summary =
         format!("L {} mm  ·  {} g", of(Dimension::BeamLength, device), of(Dimension::BeamMass, device));
     Fold::new(tr("Beam")).summary(&summary).default_open(true).show(ui, |ui| {

@@ -28,7 +28,7 @@ fn out_of_range(device: &Device, scaling: ElectricalScaling, field: &str, value:
     let at = |end: f64| {
         let mut set = set;
         *parameter.get_mut(&mut set) = end;
-        Device::from_parameters(device, &set, scaling).ok().map(|device| dimension.get(&device))
+        Device::from_parameters(device, &set, scaling).ok().map(|device| device.get(dimension))
     };
     let (low, high) = parameter.range();
     // The sign of c0 is that of the magnets.
@@ -36,7 +36,7 @@ fn out_of_range(device: &Device, scaling: ElectricalScaling, field: &str, value:
     let (name, symbol, unit, factor, _) = words(dimension, scaling);
     let text = |value: f64| format!("{} {unit}", significant(factor * value, 4));
     let title = [name, symbol].join(" ");
-    let present = text(dimension.get(device));
+    let present = text(device.get(dimension));
     let number = format!("{field} = {}", short(value));
     let (least, most) = (first.min(last), first.max(last));
     Some(if most.is_finite() {
@@ -102,7 +102,7 @@ mod tests {
             let (_, high) = parameter.range();
             assert_eq!(refusal(&at(0.999 * high)), "", "{dimension:?}");
             let told = refusal(&at(1.01 * high));
-            let end = words(dimension, ElectricalScaling::Consistent).3 * dimension.get(&at(high));
+            let end = words(dimension, ElectricalScaling::Consistent).3 * at(high).get(dimension);
             assert!(told.contains("is out of range here"), "{told}");
             assert!(told.contains(&significant(end, 4)), "{dimension:?} {end}: {told}");
         }

@@ -4,15 +4,14 @@
 mod buttons;
 mod contents;
 mod heading;
+mod shown;
 
 use egui::{Align, Frame, Id, Layout, Margin, Panel, ScrollArea, Ui};
 
 use self::contents::{asked, said};
 use self::heading::{heading, heading_in_row};
+use self::shown::Shown;
 use super::super::Context;
-use crate::app::lessons::course::{self, Progress};
-use crate::app::lessons::data::Step;
-use crate::app::lessons::{Lesson, LessonId};
 use crate::app::text::tr;
 use crate::app::theme;
 use crate::app::widgets::icon::BUTTON_SIDE;
@@ -28,35 +27,6 @@ const LOW: f32 = 0.28;
 const HIGH: f32 = 0.38;
 /// Space between the guide's row of buttons and its text.
 const SPACE: f32 = 8.0;
-
-/// A step that is shown.
-#[derive(Clone, Copy)]
-struct Shown {
-    lesson: &'static Lesson,
-    step: &'static Step,
-    /// From 1.
-    number: usize,
-    progress: Progress,
-}
-
-impl Shown {
-    fn of(context: &Context<'_>) -> Option<(LessonId, Self)> {
-        let (id, lesson) = course::running(context.view)?;
-        let step = course::step(context.view)?;
-        let number = context.view.step.clamp(1, lesson.steps.len());
-        Some((id, Self { lesson, step, number, progress: context.course.progress(context.view) }))
-    }
-
-    fn is_last(&self) -> bool {
-        self.number == self.lesson.steps.len()
-    }
-
-    /// Whether what the step asks for has been done.
-    fn is_done(&self) -> bool {
-        (self.step.goal.is_none() || self.progress.reached)
-            && (self.step.question.is_none() || self.progress.answer.is_some())
-    }
-}
 
 /// Draws the guide when a lesson runs.
 pub(in crate::app) fn guide(context: &mut Context<'_>, ui: &mut Ui) {

@@ -2,7 +2,8 @@
 
 use egui::{Button, RichText, Ui};
 
-use super::{look, readout, si};
+use super::readout;
+use super::traced::{look, si};
 use crate::app::command::Command;
 use crate::app::live::{End, LiveAction, kick, settled};
 use crate::app::panels::Context;

@@ -3,7 +3,7 @@
 use egui::Ui;
 use egui_plot::{PlotBounds, PlotPoint};
 
-use super::Traced;
+use super::traced::Traced;
 use crate::app::live::{PORTRAIT, Sample};
 use crate::app::panels::Context;
 use crate::app::text::{fill, tr};

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::si;
+use super::traced::si;
 use crate::app::live::End;
 use crate::app::panels::Context;
 use crate::app::text::{fill, tr};

@@ -3,7 +3,7 @@
 use egui::{RichText, Ui};
 use egui_plot::{PlotBounds, PlotPoint};
 
-use super::{Traced, look, si};
+use super::traced::{Traced, look, si};
 use crate::app::live::Sample;
 use crate::app::panels::Context;
 use crate::app::text::tr;

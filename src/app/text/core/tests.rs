@@ -1,9 +1,11 @@
+use proc_macro2::{TokenStream, TokenTree};
+
 use super::*;
 use crate::app::link;
 use crate::app::text::{Language, install, reset};
 use crate::app::view::View;
-use crate::dynamics::motion::Undecided;
-use crate::dynamics::verdict::{Coexisting, OtherStart, Warning};
+use crate::dynamics::attractors::motion::Undecided;
+use crate::dynamics::attractors::verdict::{Coexisting, OtherStart, Warning};
 use crate::model::ModelError;
 use crate::questions::design::measured::MeasuredError;
 
@@ -18,7 +20,7 @@ fn values_are_found_between_the_words() {
 }
 
 /// What of a text has no translation: its values, where every sentence in it is known. That all sentences are in both
-/// catalogues is a test of its own (`tests/texts.rs`).
+/// catalogues is a test of its own (`tests/fast/texts.rs`).
 fn leaves(text: &str) -> Vec<&str> {
     match SENTENCES.iter().find_map(|sentence| values_in(sentence, text)) {
         Some(values) => values.into_iter().flat_map(|(_, value)| leaves(value)).collect(),
@@ -32,21 +34,27 @@ fn has_words(left: &str, allowed: &[&str]) -> bool {
     words.into_iter().any(|word| word.len() > 2 && !allowed.contains(&word))
 }
 
-fn source(path: &str) -> String {
+/// The tokens of a source before its tests, without brackets.
+fn source(path: &str) -> Vec<String> {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
     let whole = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    whole.split("#[cfg(test)]").next().unwrap_or_default().to_owned()
+    let code = whole.split("#[cfg(test)]").next().unwrap_or_default();
+    flat(code.parse().unwrap_or_else(|error| panic!("{}: {error}", path.display())))
 }
 
-/// The literals after each `call` of a source, with the blanks after it that a formatter may have put there.
-fn literals(source: &str, call: &str) -> Vec<String> {
-    let rest = |at: usize| source[at + call.len()..].trim_start().strip_prefix('"');
-    let begun = source.match_indices(call).filter_map(|(at, _)| rest(at));
-    let whole = begun.filter_map(|rest| {
-        let end = rest.match_indices('"').find(|(at, _)| !rest[..*at].ends_with('\\'))?.0;
-        Some(rest[..end].replace("\\\"", "\""))
+fn flat(code: TokenStream) -> Vec<String> {
+    let tokens = code.into_iter().flat_map(|token| match token {
+        TokenTree::Group(group) => flat(group.stream()),
+        token => vec![token.to_string()],
     });
-    whole.collect()
+    tokens.collect()
+}
+
+/// The texts in a source that stand right after these tokens.
+fn texts(source: &[String], after: &[&str]) -> Vec<String> {
+    let found = source.windows(after.len() + 1).filter(|tokens| tokens[..after.len()] == *after);
+    let texts = found.filter_map(|tokens| syn::parse_str::<syn::LitStr>(&tokens[after.len()]).ok());
+    texts.map(|text| text.value()).collect()
 }
 
 /// A text with its places filled by a number.
@@ -73,8 +81,8 @@ fn every_error_of_the_core_is_known() {
         }
     }
     // The spectrum is asked for by the core itself, always with what it takes.
-    for file in files.iter().filter(|file| *file != "solver/src/dynamics/spectrum.rs") {
-        said.extend(literals(&source(file), "#[error("));
+    for file in files.iter().filter(|file| *file != "solver/src/dynamics/attractors/spectrum.rs") {
+        said.extend(texts(&source(file), &["#", "error"]));
     }
     assert!(said.len() > 30, "{said:?}");
     let unknown: Vec<&String> = said
@@ -87,13 +95,12 @@ fn every_error_of_the_core_is_known() {
 /// Evidence is put together from pieces: the words of each stand in a sentence here.
 #[test]
 fn every_piece_of_evidence_is_known() {
-    let source = source("solver/src/dynamics/evidence.rs");
-    let code = source.lines().filter(|line| !line.trim_start().starts_with("//"));
-    let code = code.collect::<Vec<_>>().join("\n").replace("#[serde(rename_all = \"snake_case\")]", "");
-    let texts: Vec<&str> = code.split('"').skip(1).step_by(2).collect();
+    let source = source("solver/src/dynamics/attractors/evidence.rs");
+    let unsaid = ["doc", "rename_all"].map(|name| texts(&source, &[name, "="])).concat();
+    let texts: Vec<String> = texts(&source, &[]).into_iter().filter(|text| !unsaid.contains(text)).collect();
     assert!(texts.len() > 20, "{texts:?}");
     let names = ["run: ", "multipliers: ", "spectrum: "];
-    for text in texts {
+    for text in &texts {
         let text = names.iter().find_map(|name| text.strip_prefix(name)).unwrap_or(text);
         for words in filled(text).split('7').filter(|words| has_words(words, &[])) {
             let known = SENTENCES.iter().any(|sentence| filled(sentence).contains(words));
@@ -104,8 +111,8 @@ fn every_piece_of_evidence_is_known() {
 
 #[test]
 fn names_of_bifurcation_points_are_known() {
-    let source = source("solver/src/dynamics/curves/curve.rs");
-    let names = literals(&source, " => ");
+    let source = source("solver/src/dynamics/bifurcations/curves/curve.rs");
+    let names = texts(&source, &["=", ">"]);
     assert_eq!(names.len(), 11, "{names:?}");
     for name in names {
         assert!(leaves(&name).iter().all(|left| !has_words(left, &[])), "{name}");
@@ -217,7 +224,7 @@ fn english_stays_as_it_is_and_sentences_within_sentences_are_reworded() {
 
 #[test]
 fn every_point_of_codimension_two_has_its_name() {
-    for kind in crate::dynamics::curves::SpecialKind::ALL {
+    for kind in crate::dynamics::bifurcations::curves::SpecialKind::ALL {
         let name = kind.to_string();
         assert!(!leaves(&name).contains(&name.as_str()), "{name}");
     }

@@ -7,7 +7,7 @@ use sight::{contrast, difference};
 use super::*;
 use crate::app::colours;
 use crate::app::widgets::Series::{self, *};
-use crate::dynamics::motion::Motion;
+use crate::dynamics::attractors::motion::Motion;
 use crate::export::Pen;
 
 const THEMES: [&Tokens; 4] = [&DARK, &LIGHT, &BLACK, &WHITE];
@@ -163,7 +163,7 @@ fn kinds_of_motion_differ_for_all_eyes() {
         Motion::Quasiperiodic,
         Motion::Chaotic,
         Motion::Escape { time: 1.0 },
-        Motion::Undecided { why: crate::dynamics::motion::Undecided::TransientNotGone },
+        Motion::Undecided { why: crate::dynamics::attractors::motion::Undecided::TransientNotGone },
     ];
     for tokens in THEMES {
         for (index, first) in motions.iter().enumerate() {

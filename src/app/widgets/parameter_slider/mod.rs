@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 use egui::{Align2, Response, Sense, Ui, pos2, vec2};
 
 use self::mapping::Mapping;
-use self::rows::Rows;
+use self::rows::{Needs, Rows};
 use super::icon::{self, Icon};
 use crate::app::text::{fill, tr};
 use crate::app::{fonts, theme};
@@ -144,7 +144,13 @@ impl<'a> ParameterSlider<'a> {
             Mapping::linear(self.range.clone())
         };
         let width = ui.available_width();
-        let rows = Rows::arrange(ui, &self, &mapping, width);
+        let needs = Needs {
+            unit: self.unit,
+            marks: self.marks,
+            secondary: !self.secondary.is_empty(),
+            compact: self.compact,
+        };
+        let rows = Rows::arrange(ui, &needs, &mapping, width);
         let before = *self.value;
 
         let reset = self.name_row(ui, id, &rows);

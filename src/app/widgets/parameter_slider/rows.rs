@@ -3,7 +3,8 @@
 use egui::{Rect, Sense, Ui, pos2, vec2};
 
 use super::mapping::Mapping;
-use super::{ParameterSlider, marks, track};
+use super::marks::{self, Mark};
+use super::track;
 use crate::app::{fonts, theme};
 
 /// Height of the row with the name, of the track's grab area, and widths of the value field, points.
@@ -24,19 +25,29 @@ pub(super) struct Rows {
     pub(super) secondary: Option<egui::Pos2>,
 }
 
+/// What of a slider needs room.
+pub(super) struct Needs<'a> {
+    pub(super) unit: &'a str,
+    pub(super) marks: &'a [Mark],
+    /// Whether there is a line under the track.
+    pub(super) secondary: bool,
+    /// Whether all of it stands in one row.
+    pub(super) compact: bool,
+}
+
 impl Rows {
     /// Takes the room the control needs and divides it.
-    pub(super) fn arrange(ui: &mut Ui, slider: &ParameterSlider<'_>, mapping: &Mapping, width: f32) -> Self {
+    pub(super) fn arrange(ui: &mut Ui, needs: &Needs<'_>, mapping: &Mapping, width: f32) -> Self {
         let font = fonts::regular(theme::size::BODY);
-        let unit = ui.painter().layout_no_wrap(slider.unit.to_owned(), font, egui::Color32::PLACEHOLDER);
-        let field = match (slider.compact, slider.unit.is_empty()) {
+        let unit = ui.painter().layout_no_wrap(needs.unit.to_owned(), font, egui::Color32::PLACEHOLDER);
+        let field = match (needs.compact, needs.unit.is_empty()) {
             (true, true) => COMPACT_FIELD,
             (true, false) => COMPACT_FIELD - 4.0 + unit.size().x,
             (false, true) => FIELD,
             (false, false) => FIELD + 8.0 + unit.size().x,
         };
         let width = width.max(170.0);
-        if slider.compact {
+        if needs.compact {
             let (all, _) = ui.allocate_exact_size(vec2(width, NAME_ROW), Sense::hover());
             let split = all.left() + 0.38 * width;
             let field = Rect::from_min_max(pos2(all.right() - field, all.top()), all.max);
@@ -50,9 +61,9 @@ impl Rows {
         let row = Rect::from_min_size(top_left, vec2(width, NAME_ROW));
         let track = Rect::from_min_size(row.left_bottom() + vec2(0.0, 1.0), vec2(width, TRACK_ROW));
         let rail = track::rail(track);
-        let marks = marks::height(ui.painter(), mapping, slider.marks, rail, row);
-        let below = if slider.marks.is_empty() { track.bottom() } else { rail.bottom() + marks + 3.0 };
-        let secondary = if slider.secondary.is_empty() { 0.0 } else { 16.0 };
+        let marks = marks::height(ui.painter(), mapping, needs.marks, rail, row);
+        let below = if needs.marks.is_empty() { track.bottom() } else { rail.bottom() + marks + 3.0 };
+        let secondary = if needs.secondary { 16.0 } else { 0.0 };
         let height = below + secondary - top_left.y;
         let (all, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
         let field = Rect::from_min_max(pos2(row.right() - field, row.top()), row.max);

@@ -4,10 +4,11 @@ use egui_plot::{
     HLine, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, PlotUi, Points, Polygon, Text, VLine,
 };
 
-use super::super::legend::{Pen, Series};
 use super::super::recorder;
+use super::super::series::Series;
 use crate::app::{fonts, theme};
 use crate::export::Layer;
+use crate::export::Pen;
 use crate::export::figure::Anchor;
 
 /// Opacity of what is behind a name on a plot.

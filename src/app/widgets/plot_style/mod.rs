@@ -112,8 +112,8 @@ pub fn readout(x: &Axis, y: &Axis, position: &PlotPoint) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::widgets::Series;
     use crate::app::widgets::harness::Harness;
-    use crate::app::widgets::legend::Series;
 
     #[test]
     fn readouts_carry_symbols_and_units() {

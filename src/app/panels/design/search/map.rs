@@ -3,7 +3,7 @@
 use egui::{Color32, Id, Ui};
 use egui_plot::PlotBounds;
 
-use super::in_digits;
+use super::digits::in_digits;
 use crate::app::panels::device::{self, adopt};
 use crate::app::panels::{Context, computing};
 use crate::app::text::{fill, tr, within};
@@ -117,7 +117,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let range = |i: usize| (place(i, variables[i].range.0), place(i, variables[i].range.1));
     let (x, y) = (range(0), range(1));
     let Ok(present) = bench::device(&context.view.scenario) else { return };
-    let here = [0, 1].map(|i| place(i, sides[i].get(&present)));
+    let here = [0, 1].map(|i| place(i, present.get(sides[i])));
     let best = map.best();
     let id = ("design map", sides.map(|side| side as u8));
     let shown = plot_style::plot(ui, id, &axes[0], &axes[1])
@@ -145,7 +145,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
         for i in [0, 1] {
             let (low, high) = variables[i].range;
             let value = (axes[i].value(moved[i]) / factors[i]).clamp(low, high);
-            *sides[i].get_mut(&mut device) = round_significant(value, 5);
+            *device.get_mut(sides[i]) = round_significant(value, 5);
         }
         let scaling = context.view.scenario.scaling;
         adopt(context, device, scaling);

@@ -2,7 +2,7 @@
 
 use egui::{Button, Color32, Frame, Margin, RichText, Ui, vec2};
 
-use super::Shown;
+use super::shown::Shown;
 use crate::app::command::Command;
 use crate::app::lessons::course::Action;
 use crate::app::lessons::data::{Goal, Question};

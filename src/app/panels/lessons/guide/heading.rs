@@ -2,7 +2,8 @@
 
 use egui::{Align, Layout, Rect, RichText, Sense, Ui, pos2, vec2};
 
-use super::{Shown, buttons};
+use super::buttons;
+use super::shown::Shown;
 use crate::app::panels::Context;
 use crate::app::text::fill;
 use crate::app::{fonts, theme};

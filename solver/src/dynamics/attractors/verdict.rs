@@ -1,0 +1,295 @@
+//! One verdict on the motion that a start leads to, with all it rests on. [`super::Inquiry`] computes it.
+
+use std::fmt;
+
+use nalgebra::Complex;
+use serde::{Deserialize, Serialize};
+
+use super::evidence::{Evidence, EvidenceSource};
+use super::lyapunov::Exponent;
+use super::motion::Motion;
+use super::rotation::Rotation;
+use super::voltage_spectrum::{Peak, VoltageSpectrumError};
+use crate::dynamics::bifurcations::ForcedMotion;
+use crate::dynamics::bifurcations::boundary::CriticalExcitation;
+use crate::dynamics::integration::IntegrationError;
+use crate::dynamics::orbits::{Instability, Orbit};
+use crate::model::force::Exact;
+use crate::model::limits::LINEAR_BEAM;
+use crate::model::{ForceLaw, ReducedSystem};
+use crate::number::in_sentence;
+
+/// Distance from the periodic motion, relative to the amplitude, beyond which the transient has not gone.
+const TRANSIENT: f64 = 1e-3;
+/// Error of the force law from which it is told, relative.
+const FORCE_ERROR: f64 = 0.1;
+
+/// A Floquet multiplier.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct Multiplier {
+    /// Real part.
+    pub re: f64,
+    /// Imaginary part, not negative: the upper of a pair.
+    pub im: f64,
+    /// Modulus.
+    pub modulus: f64,
+}
+
+impl From<Complex<f64>> for Multiplier {
+    fn from(value: Complex<f64>) -> Self {
+        Self { re: value.re, im: value.im.abs(), modulus: value.norm() }
+    }
+}
+
+/// The forced motion at the same parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct ForcedSummary {
+    /// Its largest multiplier over one excitation period.
+    pub multiplier: Multiplier,
+    /// Whether it is stable.
+    pub stable: bool,
+    /// How it is unstable.
+    pub instability: Option<Instability>,
+    /// The lowest beta at which it is unstable, if below the system's.
+    pub unstable_from: Option<f64>,
+    /// Root mean square of its voltage (V).
+    pub v_rms: f64,
+    /// Its mean power (dimensionless).
+    pub power: f64,
+}
+
+impl ForcedSummary {
+    pub(super) fn new(forced: &ForcedMotion, orbit: &Orbit) -> Self {
+        Self {
+            multiplier: orbit.largest_multiplier().into(),
+            stable: orbit.stable(),
+            instability: orbit.instability(),
+            unstable_from: forced.critical.beta(),
+            v_rms: orbit.measures.v_rms,
+            power: orbit.measures.power,
+        }
+    }
+}
+
+/// Which other start leads to another motion.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum OtherStart {
+    /// On the forced motion, which is stable.
+    ForcedMotion,
+    /// At rest.
+    Rest,
+    /// Beside the start asked for, by no more than rounding.
+    Beside,
+    /// On a stable periodic motion that was met on the way.
+    OnTheWay,
+}
+
+/// Another attracting motion at the same parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct Coexisting {
+    /// The start that leads there.
+    pub start: OtherStart,
+    /// Its class.
+    pub motion: Motion,
+    /// Root mean square of its voltage (V); 0 when it ends.
+    pub v_rms: f64,
+    /// Its mean power (dimensionless); 0 when it ends.
+    pub power: f64,
+}
+
+impl fmt::Display for Coexisting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let start = match self.start {
+            OtherStart::ForcedMotion => "on the stable forced motion",
+            OtherStart::Rest => "at rest",
+            OtherStart::Beside => "that differs by rounding",
+            OtherStart::OnTheWay => "on a motion met on the way",
+        };
+        write!(
+            f,
+            "a start {start} leads to another motion: {}, {} V rms",
+            self.motion,
+            in_sentence(self.v_rms)
+        )
+    }
+}
+
+/// What to know before relying on a verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+pub enum Warning {
+    /// The run ends away from the periodic motion it approaches.
+    TransientLeft {
+        /// How far, relative to the amplitude.
+        fraction: f64,
+    },
+    /// Neighbouring motions diverge until it settles: transient chaos.
+    TransientChaos {
+        /// When it has settled (dimensionless).
+        time: f64,
+    },
+    /// The effort was spent before the motion could be decided on.
+    WouldTake {
+        /// How much longer it would take (dimensionless).
+        time: f64,
+    },
+    /// The truncated force law is wrong where the tip comes closest to the magnet.
+    ForceLaw {
+        /// 1 - R / R_exact there: positive when the law is too weak.
+        missing: f64,
+    },
+    /// The tip passes the place of the fixed magnet: only the exact force law knows of contact.
+    PassesMagnet,
+    /// The tip moves so far that no linear beam theory holds, whatever the force law.
+    LargeDeflection {
+        /// Largest tip displacement, in beam lengths.
+        tip: f64,
+    },
+    /// The escape is over the barrier of the truncated law; the exact one has none.
+    TruncatedBarrier,
+    /// The forced motion cannot be followed to this excitation: it meets another one and both end, or it is lost.
+    ForcedMotionEnds {
+        /// The last beta reached (dimensionless).
+        beta: f64,
+    },
+    /// The forced motion or its multipliers could not be computed.
+    ForcedMotionUnknown,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::TransientLeft { fraction } => {
+                write!(
+                    f,
+                    "the transient has not gone: the run ends {} % of the amplitude away",
+                    in_sentence(100.0 * fraction)
+                )
+            }
+            Self::TransientChaos { time } => {
+                write!(f, "neighbouring motions diverge until it settles, at t = {}", in_sentence(time))
+            }
+            Self::WouldTake { time } => {
+                write!(f, "to decide would take about {} more in t", in_sentence(time))
+            }
+            Self::ForceLaw { missing } => {
+                let word = if missing > 0.0 { "weak" } else { "strong" };
+                write!(
+                    f,
+                    "the magnet force beyond its linear part is {} % too {word} at the closest approach under this force law",
+                    in_sentence(100.0 * missing.abs())
+                )
+            }
+            Self::PassesMagnet => {
+                f.write_str("the tip passes through the magnet: only the exact force law knows of contact")
+            }
+            Self::LargeDeflection { tip } => {
+                write!(
+                    f,
+                    "the tip moves by {} of the beam's length, where the beam is no linear one",
+                    in_sentence(tip)
+                )
+            }
+            Self::TruncatedBarrier => f.write_str(
+                "the escape is over the barrier of the truncated force law; the exact one has none",
+            ),
+            Self::ForcedMotionEnds { beta } => {
+                write!(
+                    f,
+                    "the motion that grows from rest with beta can be followed to beta = {} only",
+                    in_sentence(beta)
+                )
+            }
+            Self::ForcedMotionUnknown => f.write_str("the forced motion could not be computed"),
+        }
+    }
+}
+
+/// How wrong the force law of `system` is where its tip comes to `tip_min` (in beam lengths); `None` when it is exact,
+/// without magnets, or right within a tenth.
+pub fn force_law_warning(system: &ReducedSystem, tip_min: f64) -> Option<Warning> {
+    if system.parameters.c0 == 0.0 || system.law == ForceLaw::Exact {
+        return None;
+    }
+    let exact = Exact::new(&system.magnet(), &system.equilibrium);
+    if tip_min <= exact.contact()? {
+        return Some(Warning::PassesMagnet);
+    }
+    let missing = 1.0 - system.rest_force().rest(tip_min) / exact.rest(tip_min);
+    (missing.abs() >= FORCE_ERROR).then_some(Warning::ForceLaw { missing })
+}
+
+/// What is known of the motion that a start leads to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct Verdict {
+    /// Its class; undecided when the evidence disagrees.
+    pub motion: Motion,
+    /// The class by the run, its Newton iteration and exponent alone: the one that the evidence agrees with or not.
+    pub suspected: Motion,
+    /// Largest multiplier of the periodic motion reached, over its own period.
+    pub multiplier: Option<Multiplier>,
+    /// The forced motion at these parameters; `None` when it cannot be followed there.
+    pub forced: Option<ForcedSummary>,
+    /// The largest Lyapunov exponents of the motion reached; `None` when it ended.
+    pub exponent: Option<Exponent>,
+    /// Root mean square of the voltage (V).
+    pub v_rms: Option<f64>,
+    /// Largest |v| (V).
+    pub v_peak: Option<f64>,
+    /// Mean power kappa v^2 in the load (dimensionless).
+    pub power: Option<f64>,
+    /// Lowest and highest tip displacement over the gap s0 (dimensionless); contact is at -1.
+    pub tip_over_gap: Option<(f64, f64)>,
+    /// Largest |slope| at the tip from equilibrium (rad).
+    pub slope: Option<f64>,
+    /// Strongest lines of the voltage's spectrum, by descending amplitude.
+    pub peaks: Vec<Peak>,
+    /// On a torus, the measured second basic frequency (dimensionless); the first is omega.
+    pub basic: Option<f64>,
+    /// On a torus, its turns in an excitation period.
+    pub rotation: Option<Rotation>,
+    /// What the class rests on.
+    pub rests_on: Vec<Evidence>,
+    /// The pieces of evidence that contradict it.
+    pub disagreeing: Vec<EvidenceSource>,
+    /// Other attracting motions met at the same parameters. Few other starts are tried: there may be more.
+    pub coexists: Vec<Coexisting>,
+    /// What to know before relying on it.
+    pub warnings: Vec<Warning>,
+}
+
+/// Why there is no verdict.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum VerdictError {
+    /// The motion cannot be integrated.
+    #[error(transparent)]
+    Integration(#[from] IntegrationError),
+    /// The voltage has no spectrum.
+    #[error(transparent)]
+    Spectrum(#[from] VoltageSpectrumError),
+}
+
+/// The warning about a deflection between `tip_min` and `tip_max` (in beam lengths).
+pub(super) fn deflection_warning(tip_min: f64, tip_max: f64) -> Option<Warning> {
+    let tip = tip_max.max(-tip_min);
+    (tip > LINEAR_BEAM).then_some(Warning::LargeDeflection { tip })
+}
+
+/// The warning about a run that ended `distance` (relative to its amplitude) from the periodic motion it approaches.
+pub(super) fn transient_warning(distance: Option<f64>) -> Option<Warning> {
+    distance.filter(|fraction| *fraction > TRANSIENT).map(|fraction| Warning::TransientLeft { fraction })
+}
+
+/// The warning about a forced motion that is not there.
+pub(super) fn forced_warning(forced: Option<&ForcedMotion>) -> Option<Warning> {
+    match forced {
+        Some(ForcedMotion { orbit: Some(_), .. }) => None,
+        Some(ForcedMotion { critical: CriticalExcitation::Ends { beta }, .. }) => {
+            Some(Warning::ForcedMotionEnds { beta: *beta })
+        }
+        _ => Some(Warning::ForcedMotionUnknown),
+    }
+}

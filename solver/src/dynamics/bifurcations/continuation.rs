@@ -1,0 +1,311 @@
+//! Branches of periodic orbits in any one of the ten parameters: pseudo-arclength continuation through folds, with
+//! the places where stability can change located on the way, and the doubled branch that leaves a period doubling.
+//!
+//! Reference: Seydel, "Practical Bifurcation and Stability Analysis", chapters 4, 5 and 7. The orbits are those of the
+//! stroboscopic map, so a branch is lost where the motion touches the magnet or escapes within its period.
+
+use nalgebra::{Complex, DVector};
+
+use super::arclength::Family;
+use super::bracket::root;
+use super::branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course, MOST_EFFORT};
+use super::plane::Axis;
+use crate::dynamics::orbits::floquet::eigenvector;
+use crate::dynamics::orbits::orbit::Observer;
+use crate::dynamics::orbits::{Instability, OrbitError};
+use crate::model::ReducedSystem;
+
+/// Steps in units of the gap and of the parameter's range: first, shortest, longest.
+const STEPS: (f64, f64, f64) = (2e-3, 1e-6, 0.02);
+/// Smallest cosine between the tangents at the ends of a step.
+const STRAIGHT: f64 = 0.97;
+/// Accuracy of a located point, in the same units.
+const LOCATED: f64 = 1e-9;
+/// The same for the place where a doubled branch closes, on which the parameter depends quadratically.
+const CLOSED: f64 = 1e-6;
+/// Secants that locate the place on the orbit of half the period.
+const MOST_SECANTS: usize = 12;
+/// Distance from the unit circle beyond which a zero of a test function was not a change of stability.
+const ON_CIRCLE: f64 = 1e-4;
+/// Distances at which the doubled branch is looked for beside its origin, in units of the gap.
+const OFFSETS: [f64; 3] = [3e-3, 1e-2, 3e-2];
+
+/// Follows the branch of `course` from the orbit of `system` near `state` (length 2N + 1).
+///
+/// # Errors
+/// As [`crate::dynamics::OrbitSolver::find`] when there is no orbit near `state`, [`OrbitError::Singular`] when it is
+/// exactly a bifurcation. Once begun, a branch that is lost is an answer, [`BranchEnd::Lost`].
+pub fn follow_branch(system: &ReducedSystem, state: &[f64], course: &Course) -> Result<Branch, OrbitError> {
+    let mut family = Family::new(system, [axis(course)], course.periods)?.shaken(course.shaking);
+    let beta = family.beta();
+    family.solver.find(state, beta, course.periods)?;
+    let value = course.parameter.get(&system.parameters);
+    let start = family.place(family.solver.state(), [value]);
+    let mut along = DVector::zeros(start.len());
+    along[start.len() - 1] = if course.upwards { 1.0 } else { -1.0 };
+    let tangent = family.tangent(&start, &along)?;
+    Follower::new(family, course).run(start, tangent)
+}
+
+/// Follows the branch of twice the period that leaves `origin`, a period doubling on a branch of `course`.
+///
+/// Both signs of its direction hold the same orbits, shifted by the half period. The course's direction is not used:
+/// the branch goes where it goes.
+///
+/// # Errors
+/// [`OrbitError::NoConvergence`] when no doubled orbit is found nearby (also when `origin` is no period doubling), and
+/// those of the map at `origin`.
+pub fn follow_doubled(
+    system: &ReducedSystem,
+    origin: &Bifurcation,
+    course: &Course,
+) -> Result<Branch, OrbitError> {
+    let set = course.shaking.at(&system.parameters, course.parameter, origin.point.value);
+    let system = system.with_numbers(set)?;
+    let mut family = Family::new(&system, [axis(course)], course.periods)?.shaken(course.shaking);
+    let beta = family.beta();
+    family.solver.evaluate_at(&origin.point.state, beta, course.periods)?;
+    let mode = eigenvector(&family.solver.map().scaled_derivative(), -1.0)?;
+    let doubled = Course { periods: 2 * course.periods, ..*course };
+    family.periods = doubled.periods;
+    let start = family.place(&origin.point.state, [origin.point.value]);
+    let direction = mode.push(0.0);
+    let mut reason = OrbitError::Singular;
+    for offset in OFFSETS {
+        let guess = &start + &direction * offset;
+        match family.correct(&guess, &direction).and_then(|place| {
+            let tangent = family.tangent(&place, &direction)?;
+            Ok((place, tangent))
+        }) {
+            Ok((place, tangent)) => return Follower::new(family, &doubled).run(place, tangent),
+            Err(error) => reason = error,
+        }
+    }
+    Err(reason)
+}
+
+fn axis(course: &Course) -> Axis {
+    Axis { parameter: course.parameter, range: course.range }
+}
+
+/// A place with what is known there.
+#[derive(Clone)]
+struct Station {
+    place: DVector<f64>,
+    tangent: DVector<f64>,
+    point: BranchPoint,
+    /// What half the period does to the state, scaled; zero where the orbit has half the period.
+    halving: Option<DVector<f64>>,
+}
+
+struct Follower {
+    family: Family<1>,
+    course: Course,
+    branch: Branch,
+}
+
+impl Follower {
+    fn new(family: Family<1>, course: &Course) -> Self {
+        let branch =
+            Branch { points: Vec::new(), bifurcations: Vec::new(), end: BranchEnd::Points, effort: 0 };
+        Self { family, course: *course, branch }
+    }
+
+    fn run(mut self, start: DVector<f64>, tangent: DVector<f64>) -> Result<Branch, OrbitError> {
+        let mut here = self.read(start, tangent)?;
+        self.branch.points.push(here.point.clone());
+        let mut step = STEPS.0;
+        while self.branch.points.len() < self.course.most_points {
+            if self.family.effort() > MOST_EFFORT {
+                self.branch.end = BranchEnd::Effort;
+                break;
+            }
+            let (moved, next, border) = match self.advance_within(&here, step) {
+                Err(_) if step > STEPS.1 => {
+                    step *= 0.5;
+                    continue;
+                }
+                Err(reason) => {
+                    self.branch.end = BranchEnd::Lost { reason };
+                    break;
+                }
+                Ok(next) => next,
+            };
+            // A correction as long as the step, or a sharp turn, may belong to another branch.
+            let doubtful = moved > 0.5 * step || next.tangent.dot(&here.tangent) < STRAIGHT;
+            if doubtful && step > STEPS.1 {
+                step *= 0.5;
+                continue;
+            }
+            let length = (&next.place - &here.place).dot(&here.tangent);
+            let end = match self.halved(&here, &next, length) {
+                Ok(Some(value)) => Some(BranchEnd::Halved { value }),
+                Ok(None) => {
+                    let found = self.find_bifurcations(&here, &next, length);
+                    found.err().map(|reason| BranchEnd::Lost { reason })
+                }
+                Err(reason) => Some(BranchEnd::Lost { reason }),
+            };
+            if let Some(end) = end {
+                self.branch.end = end;
+                break;
+            }
+            self.branch.points.push(next.point.clone());
+            if border {
+                self.branch.end = BranchEnd::Range;
+                break;
+            }
+            here = next;
+            step = (1.5 * step).min(STEPS.2);
+        }
+        self.branch.effort = self.family.effort();
+        Ok(self.branch)
+    }
+
+    /// The station a step beyond `here` along its tangent, and how far the correction moved the prediction.
+    fn advance(&mut self, here: &Station, step: f64) -> Result<(f64, Station), OrbitError> {
+        let guess = &here.place + &here.tangent * step;
+        let place = self.family.correct(&guess, &here.tangent)?;
+        let moved = (&place - &guess).norm();
+        let tangent = self.family.tangent(&place, &here.tangent)?;
+        Ok((moved, self.read(place, tangent)?))
+    }
+
+    /// As [`Self::advance`], but not beyond the course's range; also whether its border is reached.
+    fn advance_within(&mut self, here: &Station, step: f64) -> Result<(f64, Station, bool), OrbitError> {
+        let (low, high) = self.course.range;
+        let outside = |value: f64| value < low || value > high;
+        let mut target = self.family.value(&(&here.place + &here.tangent * step));
+        if !outside(target) {
+            let (moved, next) = self.advance(here, step)?;
+            if !outside(next.point.value) {
+                return Ok((moved, next, false));
+            }
+            target = next.point.value;
+        }
+        let value = target.clamp(low, high);
+        let fraction = (value - here.point.value) / (target - here.point.value);
+        let guess = &here.place + &here.tangent * (step * fraction);
+        let mut normal = DVector::zeros(guess.len());
+        normal[guess.len() - 1] = 1.0;
+        let guess = self.family.with_value(guess, 0, value);
+        let place = self.family.correct(&guess, &normal)?;
+        let tangent = self.family.tangent(&place, &here.tangent)?;
+        let mut next = self.read(place, tangent)?;
+        next.point.value = value;
+        Ok(((&next.place - guess).norm(), next, true))
+    }
+
+    /// Measures the orbit at `place`.
+    fn read(&mut self, place: DVector<f64>, tangent: DVector<f64>) -> Result<Station, OrbitError> {
+        let Family { solver, system, periods, .. } = &mut self.family;
+        let beta = system.parameters.beta;
+        let state = solver.state().to_vec();
+        let halving = if periods.is_multiple_of(2) {
+            solver.evaluate_at(&state, beta, *periods / 2)?;
+            Some(solver.defect())
+        } else {
+            None
+        };
+        let mut observer = Observer::default();
+        solver.evaluate_observed(beta, *periods, |step, _| observer.record(step))?;
+        let multipliers = solver.multipliers()?;
+        let measures = observer.measures(system.parameters.kappa);
+        let value = self.family.value(&place);
+        let state = self.family.state(&place);
+        Ok(Station { place, tangent, point: BranchPoint { value, state, multipliers, measures }, halving })
+    }
+
+    /// The parameter where the orbit has half its period between two stations, if there.
+    fn halved(&mut self, here: &Station, next: &Station, step: f64) -> Result<Option<f64>, OrbitError> {
+        let (Some(before), Some(after)) = (&here.halving, &next.halving) else { return Ok(None) };
+        let (a, b) = (before.dot(before), before.dot(after));
+        if b > 0.0 {
+            return Ok(None);
+        }
+        let located = self.between(here, (0.0, a), (step, b), CLOSED, |station| {
+            station.halving.as_ref().map_or(0.0, |halving| halving.dot(before))
+        });
+        let found =
+            match located {
+                Ok(found) => found,
+                // Where the two branches cross, corrections may stall on rounding; the nearer end is near enough.
+                Err(OrbitError::NoConvergence { .. } | OrbitError::Singular) => {
+                    if before.norm() < after.norm() { here.clone() } else { next.clone() }
+                }
+                Err(reason) => return Err(reason),
+            };
+        self.family.periods /= 2;
+        let value = self.half_orbit_doubles_near(&found);
+        self.family.periods *= 2;
+        value.map(Some)
+    }
+
+    /// Where the orbit of half the period, near `station`, has the multiplier -1: the two branches cross there, so
+    /// that the correction along the doubled one is not to be trusted. Secants in the parameter.
+    fn half_orbit_doubles_near(&mut self, station: &Station) -> Result<f64, OrbitError> {
+        let (low, high) = self.course.range;
+        let mut normal = DVector::zeros(station.place.len());
+        normal[station.place.len() - 1] = 1.0;
+        let mut place = station.place.clone();
+        let mut test = |value: f64| {
+            let guess = self.family.with_value(place.clone(), 0, value);
+            place = self.family.correct(&guess, &normal)?;
+            Ok::<f64, OrbitError>(Instability::PeriodDoubling.test(&self.family.solver.multipliers()?))
+        };
+        let mut value = station.point.value;
+        let mut change = CLOSED * (high - low);
+        let mut before = test(value)?;
+        for _ in 0..MOST_SECANTS {
+            value += change;
+            let now = test(value)?;
+            change *= now / (before - now);
+            before = now;
+            if change.abs() <= LOCATED * (high - low) {
+                return Ok(value + change);
+            }
+        }
+        Err(OrbitError::NoConvergence { iterations: MOST_SECANTS, residual: before.abs() })
+    }
+
+    /// Locates the changes of stability between two stations, `length` apart along the first one's tangent.
+    fn find_bifurcations(&mut self, here: &Station, next: &Station, length: f64) -> Result<(), OrbitError> {
+        let last = here.place.len() - 1;
+        for kind in [Instability::Fold, Instability::PeriodDoubling, Instability::NeimarkSacker] {
+            let test = |station: &Station| match kind {
+                // The parameter turns at a fold; its test function also vanishes where branches cross.
+                Instability::Fold => station.tangent[last],
+                _ => kind.test(&station.point.multipliers),
+            };
+            let (a, b) = (test(here), test(next));
+            if (a < 0.0) == (b < 0.0) {
+                continue;
+            }
+            let found = self.between(here, (0.0, a), (length, b), LOCATED, test)?;
+            let on_circle =
+                |mu: &Complex<f64>| (mu.norm() - 1.0).abs() < ON_CIRCLE && Instability::of(*mu) == kind;
+            if found.point.multipliers.iter().any(on_circle) {
+                let after = self.branch.points.len();
+                self.branch.bifurcations.push(Bifurcation { after, kind, point: found.point });
+            }
+        }
+        Ok(())
+    }
+
+    /// The station beyond `here` where `test` vanishes, between two steps with values of opposite sign.
+    fn between(
+        &mut self,
+        here: &Station,
+        a: (f64, f64),
+        b: (f64, f64),
+        tolerance: f64,
+        test: impl Fn(&Station) -> f64,
+    ) -> Result<Station, OrbitError> {
+        let mut last = here.clone();
+        root(a, b, tolerance, |step| {
+            last = self.advance(here, step)?.1;
+            Ok::<f64, OrbitError>(test(&last))
+        })?;
+        Ok(last)
+    }
+}

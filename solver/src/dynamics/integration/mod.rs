@@ -1,0 +1,37 @@
+//! How a motion goes on from a state: time integration, and what is read off a run on the way.
+//!
+//! Read in this order:
+//!
+//! * [`outcome`] says how a run can end, [`rk4`] repeats the paper's own runs, step by step.
+//! * [`collocation`] is the integrator behind everything else: the linear beam and circuit are carried by their exact
+//!   [`propagator`], the magnet's rest force by Gauss-Legendre collocation. [`linear`] has the matrices, [`rule`] the
+//!   nodes, [`tables`] what a step of one length needs, in part as [`node_map`]s; `grid` says where steps begin and end,
+//!   [`step`] is one of them as it is shown, `variation` its derivative.
+//! * [`trajectory`] keeps the steps of a run for dense output; [`ongoing`] is a motion without an end, whose numbers may
+//!   change on the way.
+//! * `extremes` and [`summary`] read a run while it is computed.
+//!
+//! It knows nothing of the other rooms.
+
+pub mod collocation;
+pub(super) mod extremes;
+pub(super) mod grid;
+pub mod linear;
+pub mod node_map;
+pub mod ongoing;
+pub mod outcome;
+pub mod propagator;
+pub mod rk4;
+pub mod rule;
+pub mod step;
+pub mod summary;
+pub mod tables;
+pub mod trajectory;
+pub(super) mod variation;
+
+pub use collocation::{Collocation, Settings};
+pub use ongoing::{Ongoing, Reach};
+pub use outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
+pub use rule::NODES;
+pub use step::Step;
+pub use trajectory::Trajectory;

@@ -1,0 +1,69 @@
+//! How a run can end.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Tip displacement, in beam lengths, beyond which a motion counts as escaped: ten times the beam's own length,
+/// far outside the validity of any of the force laws.
+pub const ESCAPE_DISPLACEMENT: f64 = 10.0;
+
+/// How a run ended. Escape and contact are results of the mechanics, not failures.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+pub enum Outcome {
+    /// The run reached its end time.
+    Completed,
+    /// The tip left over the potential barrier of the truncated force law at this (dimensionless) time.
+    Escaped {
+        /// Time of escape (dimensionless).
+        time: f64,
+    },
+    /// The magnets touched at this (dimensionless) time.
+    Contact {
+        /// Time of contact (dimensionless).
+        time: f64,
+    },
+}
+
+impl Outcome {
+    /// The time at which the run ended early, if it did.
+    pub fn early_end(&self) -> Option<f64> {
+        match *self {
+            Self::Completed => None,
+            Self::Escaped { time } | Self::Contact { time } => Some(time),
+        }
+    }
+}
+
+/// Why a run could not be carried out.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum IntegrationError {
+    /// The initial state has the wrong length or holds something that is not a number.
+    #[error("initial must be {expected} finite numbers (q1..qN, dq1/dt..dqN/dt, v), got {got}")]
+    InitialState {
+        /// Required length 2N + 1.
+        expected: usize,
+        /// What was wrong.
+        got: String,
+    },
+    /// The step fell below any useful size without an escape or a contact.
+    #[error(
+        "the step became too small at time {time}: the motion cannot be resolved to tolerance {tolerance}"
+    )]
+    StepTooSmall {
+        /// Dimensionless time.
+        time: f64,
+        /// The tolerance asked for.
+        tolerance: f64,
+    },
+    /// The motion is so much faster than the excitation that the run would hardly end.
+    #[error(
+        "the motion is too fast to follow: {steps} steps have reached time {time} only; start nearer to rest, reduce beta or use the exact force law"
+    )]
+    TooManySteps {
+        /// Dimensionless time reached.
+        time: f64,
+        /// Steps done.
+        steps: u64,
+    },
+}

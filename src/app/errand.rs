@@ -1,0 +1,20 @@
+//! What the app asks of the browser, which does it after the frame.
+
+use super::text::Language;
+
+/// What only the browser can do.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Errand {
+    /// Save a text as a file of this name and type.
+    Save(String, &'static str, String),
+    /// Make a picture of this drawing with so many times its pixels, and save it under this name.
+    Picture(String, String, u8),
+    /// Let these samples between -1 and 1 be heard after those before them; none ends the sound.
+    Sound(Vec<f32>),
+    /// Ask for a file, and pass it to [`super::App::open_file`].
+    Open,
+    /// Fetch what this language needs, and pass it to [`super::App::learn`].
+    Fetch(Language),
+    /// Have the page's own markup in this language, with these texts by their English ones, as JSON.
+    Speak(Language, String),
+}

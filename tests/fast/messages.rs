@@ -1,0 +1,147 @@
+//! What page and workers send each other arrives as it was sent, and every question is on the list.
+
+use std::fmt::Debug;
+
+use harvester_lab::dynamics::attractors::sweep::Dwell;
+use harvester_lab::dynamics::bifurcations::curves::Line;
+use harvester_lab::dynamics::bifurcations::tongue::Window;
+use harvester_lab::dynamics::{Axis, Plane};
+use harvester_lab::model::materials::Ceramic;
+use harvester_lab::model::{ForceLaw, Limits, Parameter, ParameterSet, Shaking};
+use harvester_lab::questions::answers::Solve;
+use harvester_lab::questions::curves::{Along, Trace};
+use harvester_lab::questions::design::change::Way;
+use harvester_lab::questions::design::find::{FindQuestion, Objective, Variable};
+use harvester_lab::questions::design::trust::Quantity;
+use harvester_lab::questions::find::Evaluate;
+use harvester_lab::questions::harvest::{Between, Deliver};
+use harvester_lab::questions::inspection::Inspect;
+use harvester_lab::questions::list::{self, HANDS, TASKS};
+use harvester_lab::questions::load::{BestAt, Forced, Reached};
+use harvester_lab::questions::materials::Fitted;
+use harvester_lab::questions::motions::{Coordinate, MotionPlane, Motions};
+use harvester_lab::questions::multiplier_chart::Columns;
+use harvester_lab::questions::response::Response;
+use harvester_lab::questions::sweep::Stretch;
+use harvester_lab::questions::tongues::Border;
+use harvester_lab::questions::trust::Entry;
+use harvester_lab::scenario::Scenario;
+use harvester_lab::scheduler::{Finding, Piece};
+use harvester_lab::theory::Resonance;
+
+/// Figure 4's device and excitation.
+fn scenario() -> Scenario {
+    let parameters = ParameterSet { alpha: 1e-4, beta: 0.01, omega: 25.4047, ..Default::default() };
+    Scenario { parameters, ..Default::default() }
+}
+
+fn plane() -> Plane {
+    Plane::new([
+        Axis { parameter: Parameter::Omega, range: (25.3, 25.7) },
+        Axis { parameter: Parameter::Beta, range: (1e-4, 0.02) },
+    ])
+    .expect("a plane")
+}
+
+/// Sends a piece to a worker, and what it found back; the piece's name.
+fn sent<P: Piece + PartialEq + Debug>(piece: &P) -> &'static str
+where
+    P::Found: PartialEq + Debug,
+{
+    let message = piece.serialize_bin();
+    assert_eq!(&P::deserialize_bin(&message).expect("a message"), piece);
+    assert!(list::carry_out(P::NAME, &message[..message.len() - 1]).is_err(), "a message cut short");
+    let found = piece.carry_out().expect("a finding");
+    let answer = list::carry_out(P::NAME, &message).expect("a finding");
+    assert_eq!(Finding::Message(answer.clone()).open::<P::Found>().expect("a message"), found);
+    assert!(Finding::Message(answer[..answer.len() - 1].to_vec()).open::<P::Found>().is_err());
+    P::NAME
+}
+
+#[test]
+fn work_and_what_it_finds_arrive_as_they_were_sent() {
+    let (scenario, window) = (scenario(), Window { span: 0.3, limit: 0.02 });
+    let state = Some(vec![0.0, 1e-3, 0.0, -1e-3, 0.5]);
+    let (parameter, shaking) = (Parameter::Omega, Shaking::Acceleration);
+    let resistances = vec![1e6, 1e7];
+    let coordinate = Coordinate::Parameter(Parameter::Kappa);
+    let question = FindQuestion {
+        scenario: scenario.clone(),
+        variables: vec![Variable { coordinate, range: (1e-6, 1e-3), logarithmic: true }],
+        objective: Objective::Power,
+        limits: Limits::default(),
+    };
+    let line = Line { along: 0, at: 0.01 };
+    let starts = Along { scenario: scenario.clone(), plane: plane(), line }.carry_out().expect("starts");
+    let mut names = vec![
+        sent(&Solve { request: "{\"task\":\"modes\"}".to_owned() }),
+        sent(&Deliver { scenario: scenario.clone() }),
+        sent(&Border { scenario: scenario.clone(), resonance: Resonance::Sum, window }),
+        sent(&Inspect { scenario: scenario.clone() }),
+        sent(&Columns { scenario: scenario.clone(), omegas: vec![25.4, 25.5], betas: vec![1e-3, 1e-2, 2.0] }),
+        sent(&Response { scenario: scenario.clone(), parameter, shaking, range: (7.5, 8.6) }),
+        sent(&Stretch {
+            scenario: scenario.clone(),
+            parameter,
+            shaking: Shaking::Amplitude,
+            values: vec![25.3, 25.4],
+            state: state.clone(),
+            dwell: Dwell { discarded: 20, kept: 8 },
+        }),
+        sent(&Along { scenario: scenario.clone(), plane: plane(), line }),
+        sent(&Trace {
+            scenario: scenario.clone(),
+            plane: plane(),
+            start: starts.first().expect("a bifurcation").clone(),
+        }),
+        sent(&Motions {
+            plane: MotionPlane {
+                scenario: scenario.clone(),
+                x: Coordinate::Start(0),
+                y: Coordinate::Parameter(Parameter::Beta),
+            },
+            places: vec![[0.0, 1e-3]],
+        }),
+        sent(&Between {
+            scenario: scenario.clone(),
+            shaking,
+            way: Way::FromRest,
+            neighbours: (25.2, 25.3),
+            difference: 1e-3,
+        }),
+        sent(&Forced { scenario: scenario.clone(), resistances: resistances.clone() }),
+        sent(&Reached { scenario: scenario.clone(), resistances, state }),
+        sent(&BestAt {
+            scenario: scenario.clone(),
+            resistance: 1e7,
+            window: (7.9, 8.2),
+            shaking,
+            limits: Limits::default(),
+        }),
+        sent(&Fitted {
+            scenario: scenario.clone(),
+            ceramic: Ceramic::Apc840,
+            mode: 1,
+            resonance: Resonance::First,
+            window,
+        }),
+        sent(&Entry { scenario, modes: 2, law: ForceLaw::Exact, quantity: Quantity::Power }),
+        sent(&Evaluate { question, values: vec![1e-5] }),
+    ];
+    let mut known: Vec<&str> = HANDS.iter().map(|hand| hand.name).collect();
+    names.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(names, known, "every piece has one hand");
+    assert!(list::carry_out("nothing", &[]).is_err());
+}
+
+/// The README's table and the order of its rows.
+#[test]
+fn the_readme_has_a_row_for_every_task() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = std::fs::read_to_string(path).expect("the README");
+    let table = readme.split("| task | further fields | answer |").nth(1).expect("the table of tasks");
+    let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
+    let names: Vec<&str> = rows.filter_map(|row| row.split('`').nth(1)).collect();
+    assert_eq!(names, TASKS.map(|task| task.name));
+}
