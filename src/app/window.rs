@@ -3,11 +3,12 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use super::App;
 use super::crew::{Crew, Workers};
-use crate::questions::work::{Finding, Work};
+use crate::scheduler::{Finding, Work};
 
 /// A worker, the number of its piece, and what it found.
 type Report = (usize, u64, Result<Finding, String>);
@@ -24,8 +25,8 @@ impl Workers for Threads {
         rayon::current_num_threads()
     }
 
-    fn give(&mut self, worker: usize, number: u64, work: &Work) {
-        let (work, sender, context) = (work.clone(), self.sender.clone(), self.context.clone());
+    fn give(&mut self, worker: usize, number: u64, work: Arc<dyn Work>) {
+        let (sender, context) = (self.sender.clone(), self.context.clone());
         rayon::spawn(move || {
             // Nobody listens any more once the window is closed.
             let _ = sender.send((worker, number, work.carry_out()));
