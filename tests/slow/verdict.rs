@@ -3,11 +3,12 @@
 #![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
 
 use crate::{Fallible, OMEGA_1, OMEGA_2, TestResult};
-use harvester_lab::dynamics::attractors::evidence::EvidenceSource;
+use harvester_lab::dynamics::attractors::evidence::{Evidence, EvidenceSource};
 use harvester_lab::dynamics::attractors::verdict::{OtherStart, Warning, force_law_warning};
 use harvester_lab::dynamics::integration::rk4::RungeKutta4;
 use harvester_lab::dynamics::{ForcedMotion, Instability, Motion, Orbit, Verdict, largest_multipliers};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
+use harvester_lab::theory::LinearResponse;
 
 const PERIOD_1: Motion = Motion::Periodic { periods: 1 };
 
@@ -106,6 +107,57 @@ fn figure_4_is_a_torus_and_says_what_coexists() -> TestResult {
     assert_eq!(verdict.motion, PERIOD_1);
     let [beside] = verdict.coexists[..] else { return Err("one motion coexists".into()) };
     assert_eq!((beside.start, beside.motion), (OtherStart::Rest, Motion::Quasiperiodic));
+    Ok(())
+}
+
+#[test]
+fn the_peak_of_a_torus_is_that_of_a_long_run_by_runge_kutta() -> TestResult {
+    const STEPS: usize = 250;
+    let system = strong(OMEGA_1 + OMEGA_2)?;
+    let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+    let mut run = RungeKutta4::new(&system, &[0.0; 5], STEPS as u32)?;
+    let mut peak = 0.0_f64;
+    for step in 0..20_000 * STEPS {
+        assert!(run.step().is_none());
+        if step >= 5000 * STEPS {
+            peak = peak.max(run.state()[4].abs());
+        }
+    }
+    assert!(
+        verdict.v_peak.is_some_and(|v_peak| (v_peak / peak - 1.0).abs() < 5e-4),
+        "{:?}, {peak}",
+        verdict.v_peak
+    );
+    Ok(())
+}
+
+#[test]
+fn a_slow_transient_ends_in_the_linear_response_and_hangs_on_no_rounding() -> TestResult {
+    let set = ParameterSet {
+        alpha: 1.0233908736632898e-5,
+        beta: 4.507660494492484e-5,
+        omega: 52.39782899634506,
+        c0: 1.498416208025629,
+        d: 0.26256482367445555,
+        h: 0.002451819883333969,
+        eta: 0.07599914066754945,
+        c: 9.297360944547462e-6,
+        kappa: 9.888449382616378e-8,
+        theta: 2.456704586417608e-5,
+    };
+    let system = ReducedSystem::new(Parameters::new(set)?, 2, ForceLaw::Exact)?;
+    let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+    assert_eq!(verdict.motion, PERIOD_1);
+    let linear = LinearResponse::new(&system)?.voltage.norm() / 2.0_f64.sqrt();
+    assert!(
+        verdict.v_rms.is_some_and(|v_rms| (v_rms / linear - 1.0).abs() < 1e-4),
+        "{:?}, {linear}",
+        verdict.v_rms
+    );
+    let beside = |piece: &Evidence| piece.source == EvidenceSource::Beside;
+    assert!(!verdict.rests_on.iter().any(beside), "{:?}", verdict.rests_on);
+    let slow = |warning: &Warning| matches!(warning, Warning::TransientChaos { .. });
+    assert!(!verdict.warnings.iter().any(slow), "{:?}", verdict.warnings);
     Ok(())
 }
 

@@ -23,7 +23,7 @@ use crate::dynamics::orbits::period_map::scales;
 use crate::model::{ForceLaw, ReducedSystem};
 
 /// Record of the exponent on a periodic motion: first, and when it is given up as it is (excitation periods).
-const EXPONENT_PERIODS: (usize, usize) = (256, 8192);
+const EXPONENT_PERIODS: (usize, usize) = (192, 8192);
 /// Half width of that exponent, relative to it, at which it is accurate enough.
 const ACCURATE: f64 = 0.02;
 /// Decay of the tangent vectors over the record after which it is long enough whatever the interval says.
@@ -110,7 +110,11 @@ fn beside(
     let coarser = settler.reach(initial, coarse)?;
     let recogniser = Recogniser::new(system);
     let own = Signature::of(reached.clone());
-    let same = recogniser.same(&own, &Signature::of(coarser.clone()));
+    // Averages over chaotic motions differ by chance, so two of them from one start are no two motions.
+    let one = |a: &Signature, b: &Signature| {
+        [a, b].iter().all(|end| end.cell.motion == Motion::Chaotic) || recogniser.same(a, b)
+    };
+    let same = one(&own, &Signature::of(coarser.clone()));
     let lasting =
         matches!(reached.motion, Motion::Chaotic | Motion::Quasiperiodic | Motion::Undecided { .. });
     let separated = !lasting && separated(reached, &coarser);
@@ -139,7 +143,7 @@ fn beside(
         let effort =
             Effort { lasting: BESIDE_LASTING, beside_stable: 1, steps: BESIDE_STEPS, ..Effort::full() };
         let end = Signature::of(settler.reach(&moved, effort)?);
-        match ends.iter_mut().find(|(known, _)| recogniser.same(known, &end)) {
+        match ends.iter_mut().find(|(known, _)| one(known, &end)) {
             Some((_, count)) => *count += 1,
             None if matches!(end.cell.motion, Motion::Undecided { .. }) => {}
             None => ends.push((end, 1)),
