@@ -4,6 +4,7 @@
 
 use crate::{Fallible, OMEGA_1, OMEGA_2, TestResult};
 use harvester_lab::dynamics::attractors::evidence::{Evidence, EvidenceSource};
+use harvester_lab::dynamics::attractors::motion::Undecided;
 use harvester_lab::dynamics::attractors::verdict::{OtherStart, Warning, force_law_warning};
 use harvester_lab::dynamics::integration::rk4::RungeKutta4;
 use harvester_lab::dynamics::{ForcedMotion, Instability, Motion, Orbit, Verdict, largest_multipliers};
@@ -158,6 +159,28 @@ fn a_slow_transient_ends_in_the_linear_response_and_hangs_on_no_rounding() -> Te
     assert!(!verdict.rests_on.iter().any(beside), "{:?}", verdict.rests_on);
     let slow = |warning: &Warning| matches!(warning, Warning::TransientChaos { .. });
     assert!(!verdict.warnings.iter().any(slow), "{:?}", verdict.warnings);
+    Ok(())
+}
+
+#[test]
+fn a_nearly_conservative_device_whose_transient_outlasts_the_effort_is_undecided() -> TestResult {
+    // A stable motion of period 3 is there, but the run is 3 % away from it for a million periods.
+    let set = ParameterSet { alpha: 1e-4, beta: 0.01239, omega: 12.9689, kappa: 1e-12, ..Default::default() };
+    let system = ReducedSystem::new(Parameters::new(set)?, 1, ForceLaw::Exact)?;
+    let verdict = Verdict::of(&system, &[0.0; 3], 600.0)?;
+    assert_eq!(verdict.motion, Motion::Undecided { why: Undecided::TransientNotGone });
+    let longer = |warning: &Warning| matches!(warning, Warning::WouldTake { time } if *time > 1e5);
+    assert!(verdict.warnings.iter().any(longer), "{:?}", verdict.warnings);
+    Ok(())
+}
+
+#[test]
+fn beside_other_motions_the_start_at_rest_leads_where_runge_kutta_goes() -> TestResult {
+    let system = system(1e-4, 0.02109, 8.15737, ForceLaw::Taylor(5))?;
+    let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+    assert_eq!(verdict.motion, Motion::Periodic { periods: 2 });
+    let expected = settled_voltage(&system)?;
+    assert!(verdict.v_rms.is_some_and(|v_rms| (v_rms / expected - 1.0).abs() < 1e-4), "{:?}", verdict.v_rms);
     Ok(())
 }
 
