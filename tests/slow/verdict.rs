@@ -175,6 +175,33 @@ fn a_nearly_conservative_device_whose_transient_outlasts_the_effort_is_undecided
 }
 
 #[test]
+fn chaos_of_forty_thousand_periods_is_not_named_where_a_torus_attracts() -> TestResult {
+    // Runs at tolerances 1e-6, 1e-8 and 1e-9 leave chaos between t = 4000 and 10000 for the torus about the forced motion,
+    // which has just lost its stability.
+    let set = ParameterSet {
+        alpha: 0.00041394780074859055,
+        beta: 0.04973012242646372,
+        omega: 25.034830785345395,
+        c0: 0.18540251990912038,
+        d: 0.18890451916505524,
+        h: 0.042417646286551786,
+        eta: 0.015879820100582753,
+        c: 2.3230084774211234e-6,
+        kappa: 4.193403077628977e-8,
+        theta: 1.344031667651489e-5,
+    };
+    let system = ReducedSystem::new(Parameters::new(set)?, 2, ForceLaw::Exact)?;
+    let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+    assert_ne!(verdict.motion, Motion::Chaotic);
+    let torus = |motion: Motion, v_rms: Option<f64>| {
+        motion == Motion::Quasiperiodic && v_rms.is_some_and(|v_rms| (v_rms - 2.948).abs() < 0.01)
+    };
+    let met = verdict.coexists.iter().any(|other| torus(other.motion, Some(other.v_rms)));
+    assert!(torus(verdict.suspected, verdict.v_rms) || met, "{:?} {:?}", verdict.motion, verdict.coexists);
+    Ok(())
+}
+
+#[test]
 fn beside_other_motions_the_start_at_rest_leads_where_runge_kutta_goes() -> TestResult {
     let system = system(1e-4, 0.02109, 8.15737, ForceLaw::Taylor(5))?;
     let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;

@@ -37,6 +37,10 @@ const BESIDE: usize = 10;
 /// Excitation periods that a chaotic one of them must last, and integrator steps that each may cost.
 const BESIDE_LASTING: usize = 8000;
 const BESIDE_STEPS: u64 = 600_000;
+/// Excitation periods that a chaotic motion must last where something else attracts, on which a transient could end.
+const LASTING_BESIDE: usize = 96_000;
+/// A forced motion whose multiplier is below this is stable, or has just handed its stability to what branched off.
+const NEARLY_STABLE: f64 = 1.01;
 /// How far they are from it, relative to the gap: more than rounding, less than anybody could set.
 const BESIDE_BY: f64 = 1e-10;
 
@@ -60,7 +64,11 @@ impl Inquiry {
     /// [`VerdictError`].
     pub fn new(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Self, VerdictError> {
         let mut settler = Settler::new(system);
+        let forced = ForcedMotion::of(system).ok();
         let mut reached = settler.reach(initial, Effort::full())?;
+        if reached.motion == Motion::Chaotic && has_an_end(&settler, forced.as_ref()) {
+            reached = settler.reach(initial, Effort { lasting: LASTING_BESIDE, ..Effort::full() })?;
+        }
         let (beside, separated) = beside(&mut settler, system, initial, &reached)?;
         let spectrum = spectrum(system, &mut reached)?;
         let exponent = match &reached.orbit {
@@ -69,7 +77,6 @@ impl Inquiry {
             None if reached.motion == Motion::Quasiperiodic => exponent_on(system, &reached.state)?,
             None => reached.exponent,
         };
-        let forced = ForcedMotion::of(system).ok();
         let from_rest = match initial.iter().all(|value| *value == 0.0) {
             true => None,
             false => Some(settler.reach(&vec![0.0; initial.len()], Effort::full())?),
@@ -96,6 +103,13 @@ impl Verdict {
     pub fn of(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Self, VerdictError> {
         Ok(Inquiry::new(system, initial, t_end)?.verdict)
     }
+}
+
+/// Whether a motion is known that chaos may only be the way to.
+fn has_an_end(settler: &Settler, forced: Option<&ForcedMotion>) -> bool {
+    let forced = forced.and_then(|forced| forced.orbit.as_ref());
+    let nearly_stable = forced.is_some_and(|orbit| orbit.largest_multiplier().norm() < NEARLY_STABLE);
+    nearly_stable || !settler.stable_orbits().is_empty()
 }
 
 /// Where starts lead that differ by rounding, the one asked for among them: one entry a motion, with how many do; and
@@ -140,8 +154,7 @@ fn beside(
                 value + BESIDE_BY * system.equilibrium.gap * scale * direction
             })
             .collect();
-        let effort =
-            Effort { lasting: BESIDE_LASTING, beside_stable: 1, steps: BESIDE_STEPS, ..Effort::full() };
+        let effort = Effort { lasting: BESIDE_LASTING, steps: BESIDE_STEPS, ..Effort::full() };
         let end = Signature::of(settler.reach(&moved, effort)?);
         match ends.iter_mut().find(|(known, _)| one(known, &end)) {
             Some((_, count)) => *count += 1,

@@ -80,8 +80,6 @@ pub struct Effort {
     pub record: usize,
     /// Excitation periods that a motion must last to count as chaotic.
     pub lasting: usize,
-    /// How many times as long where a stable periodic motion is known beside it, on which a transient could end.
-    pub beside_stable: usize,
     /// Largest disagreement between the averages of the two halves of a torus' record, relative.
     pub agreement: f64,
     /// Integrator steps after which the start is given up as undecided.
@@ -91,28 +89,12 @@ pub struct Effort {
 impl Effort {
     /// For a chart of many cells.
     pub const fn cell() -> Self {
-        Self {
-            tolerance: 1e-5,
-            least: 0,
-            record: 640,
-            lasting: 3000,
-            beside_stable: 1,
-            agreement: 1e-4,
-            steps: 600_000,
-        }
+        Self { tolerance: 1e-5, least: 0, record: 640, lasting: 3000, agreement: 1e-4, steps: 600_000 }
     }
 
     /// For one motion.
     pub const fn full() -> Self {
-        Self {
-            tolerance: 1e-8,
-            least: 0,
-            record: 1024,
-            lasting: 24_000,
-            beside_stable: 4,
-            agreement: 1e-6,
-            steps: 4_000_000,
-        }
+        Self { tolerance: 1e-8, least: 0, record: 1024, lasting: 24_000, agreement: 1e-6, steps: 4_000_000 }
     }
 }
 
@@ -426,7 +408,7 @@ impl Run<'_> {
             (self.lasting, self.record) = (None, None);
         }
         if let Some(witnesses) = self.lasting {
-            let lasted = self.instants >= self.lasting_least();
+            let lasted = self.instants >= self.effort.lasting;
             return lasted.then(|| self.by_record(Motion::Chaotic, Some(witnesses)));
         }
         let Some(record) = &self.record else {
@@ -470,12 +452,6 @@ impl Run<'_> {
             self.record = Some(Record::new(&self.settler.system, longer));
         }
         None
-    }
-
-    /// Excitation periods that a motion must last to count as chaotic.
-    fn lasting_least(&self) -> usize {
-        let stable = self.settler.known.iter().any(|known| known.orbit.stable());
-        self.effort.lasting * if stable { self.effort.beside_stable } else { 1 }
     }
 
     /// Whether the last displacements of the tip look like a motion that has settled, or like one that does not.
