@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::measured::MeasuredError;
+use super::measured_error::MeasuredError;
 use crate::questions::input;
 
 /// Lines that are looked at to find out how a file is written.

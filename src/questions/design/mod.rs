@@ -15,6 +15,7 @@ pub mod linear;
 pub mod load;
 pub mod materials;
 pub mod measured;
+pub mod measured_error;
 pub mod peak;
 pub mod plant;
 pub mod point;
