@@ -64,6 +64,7 @@ const LENGTH: Length = Length { first: 1000, least: 20_000, most: 100_000 };
 const STRETCH: usize = 50;
 
 /// A run by DOP853.
+#[derive(Clone)]
 struct Independent {
     system: ByHand,
     period: f64,
@@ -80,6 +81,12 @@ impl Independent {
 }
 
 impl Run for Independent {
+    fn beside(&self, by: f64) -> Self {
+        let mut other = self.clone();
+        other.state[0] += by;
+        other
+    }
+
     fn advance(&mut self, periods: usize) -> Option<f64> {
         let mut left = periods;
         self.state[5] = 0.0;
@@ -125,7 +132,9 @@ fn worth(truth: &Truth, verdict: &Verdict) -> Worth {
             Worth::Rounding
         }
         Standing::Undecided => Worth::Undecided,
-        Standing::Wrong if matches!((truth, verdict.motion), (Truth::Open(_), Motion::Periodic { .. })) => {
+        Standing::Wrong
+            if matches!((truth, verdict.motion), (Truth::Open { .. }, Motion::Periodic { .. })) =>
+        {
             Worth::Unknown
         }
         Standing::Wrong => Worth::Wrong,

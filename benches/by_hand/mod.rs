@@ -4,6 +4,7 @@ use differential_equations::prelude::ODE;
 use harvester_lab::model::{ForceLaw, ParameterSet, ReducedSystem};
 
 /// Eqs. (31)-(34) with two modes.
+#[derive(Clone)]
 pub(crate) struct ByHand {
     omega: [f64; 2],
     eta1: [f64; 2],

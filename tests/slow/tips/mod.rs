@@ -17,13 +17,30 @@ const VOLTS: (f64, f64) = (0.01, 0.02);
 
 /// A run by our own integrator.
 struct Own {
+    system: ReducedSystem,
     run: Collocation,
     state: Vec<f64>,
 }
 
+impl Own {
+    fn new(system: &ReducedSystem, state: Vec<f64>) -> Self {
+        let run = Collocation::new(system, &state, Settings { tolerance: 1e-9 }).expect("a start");
+        Self { system: system.clone(), run, state }
+    }
+}
+
 impl Run for Own {
+    fn beside(&self, by: f64) -> Self {
+        let mut state = self.state.clone();
+        state[0] += by;
+        let mut other = Self::new(&self.system, state);
+        // Its own start counts as the first instant that it passes.
+        other.advance(1).expect("a step");
+        other
+    }
+
     fn advance(&mut self, periods: usize) -> Option<f64> {
-        let Self { run, state } = self;
+        let Self { run, state, .. } = self;
         let width = state.len();
         let (mut passed, mut square) = (0, 0.0);
         while passed < periods {
@@ -49,11 +66,9 @@ impl Run for Own {
 
 /// Follows the start of `system` at rest to a dimensionless time of 20,000.
 fn from_rest(system: &ReducedSystem) -> Truth {
-    let rest = vec![0.0; system.dimension()];
-    let run = Collocation::new(system, &rest, Settings { tolerance: 1e-9 }).expect("a start");
-    let period = system.parameters.period();
-    let least = (20_000.0 / period).ceil() as usize;
-    truth::follow(system, &mut Own { run, state: rest }, Length { first: least, least, most: 4_000_000 })
+    let mut run = Own::new(system, vec![0.0; system.dimension()]);
+    let least = (20_000.0 / system.parameters.period()).ceil() as usize;
+    truth::follow(system, &mut run, Length { first: least, least, most: 4_000_000 })
 }
 
 /// Points about the tips, so many for each device, law and resonance.

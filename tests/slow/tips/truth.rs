@@ -13,8 +13,15 @@ const STEADY: f64 = 0.02;
 const ARRIVED: f64 = 1e-3;
 const EARLY: f64 = 1e-6;
 
-/// By how much averages of a chaotic motion over some thousand periods may differ by chance, relative.
-const CHANCE: f64 = 0.25;
+/// Batches of the last stretch, whose scatter tells how far its mean is off by chance, and how many standard errors that is.
+const BATCHES: usize = 10;
+const ERRORS: f64 = 4.0;
+/// Where a run that did not arrive is followed beside another one: how far from it that begins, relative to the gap, for how
+/// many periods, and how far apart, relative to the largest displacement, chaos drives them in that time. On a torus two
+/// motions part in proportion to the time only.
+const BESIDE: f64 = 1e-8;
+const FOLLOWED: usize = 2000;
+const APART: f64 = 1e-2;
 
 /// What the run came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,12 +30,21 @@ pub(crate) enum Truth {
     Periodic(Box<Orbit>),
     /// It escaped or touched.
     Ended,
-    /// Neither, with the root mean square of the voltage over the last tenth: a torus, chaos, or a transient without end.
-    Open(f64),
+    /// Neither: a torus, chaos, or a transient without end.
+    Open {
+        /// Root mean square of the voltage over the last tenth (V).
+        v_rms: f64,
+        /// How far that is off by chance, relative.
+        chance: f64,
+        /// Whether neighbours part as on a chaotic motion.
+        chaotic: bool,
+    },
 }
 
 /// A run that can be continued by whole excitation periods.
-pub(crate) trait Run {
+pub(crate) trait Run: Sized {
+    /// Another one from here, its first displacement larger by `by` (beam lengths).
+    fn beside(&self, by: f64) -> Self;
     /// Continues for so many, and returns the integral of v^2 over them; `None` when the run ends.
     fn advance(&mut self, periods: usize) -> Option<f64>;
     /// The state at a stroboscopic instant.
@@ -50,18 +66,24 @@ pub(crate) struct Length {
 pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length) -> Truth {
     let period = system.parameters.period();
     let mut done = 0;
-    let (mut earlier, mut open) = (None, f64::NAN);
+    let (mut earlier, mut open, mut chance) = (None, f64::NAN, f64::NAN);
     while done < length.most {
         let until = if done == 0 { length.first } else { (done + done / 2).min(length.most) };
         let tenth = ((until - done) / 10).max(2 * LONGEST);
         if run.advance(until.saturating_sub(tenth + done)).is_none() {
             return Truth::Ended;
         }
-        let Some(mut square) = run.advance(tenth - LONGEST) else { return Truth::Ended };
+        let batch = (tenth - LONGEST).div_ceil(BATCHES);
+        let mut squares = Vec::new();
+        for _ in 0..BATCHES {
+            let Some(square) = run.advance(batch) else { return Truth::Ended };
+            squares.push(square / (batch as f64 * period));
+        }
         let mut last = vec![run.state()];
         for _ in 0..LONGEST {
-            let Some(one) = run.advance(1) else { return Truth::Ended };
-            square += one;
+            if run.advance(1).is_none() {
+                return Truth::Ended;
+            }
             last.push(run.state());
         }
         done = until;
@@ -94,7 +116,12 @@ pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length)
             leaving |= off(&state) <= 0.3 * unit;
         }
         earlier = Some(state);
-        let now = (square / (tenth as f64 * period)).sqrt();
+        let mean = squares.iter().sum::<f64>() / BATCHES as f64;
+        let variance =
+            squares.iter().map(|square| (square - mean).powi(2)).sum::<f64>() / (BATCHES - 1) as f64;
+        let now = mean.sqrt();
+        // Of a square the relative error is twice that of its root.
+        chance = 0.5 * ERRORS * (variance / BATCHES as f64).sqrt() / mean;
         // What drifts is still on its way.
         let steady = (now / open - 1.0).abs() <= STEADY;
         open = now;
@@ -102,7 +129,21 @@ pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length)
             break;
         }
     }
-    Truth::Open(open)
+    chaotic(system, run).map_or(Truth::Ended, |chaotic| Truth::Open { v_rms: open, chance, chaotic })
+}
+
+/// Whether `run` and one beside it part as on a chaotic motion; `None` when one of them ends.
+fn chaotic(system: &ReducedSystem, run: &mut impl Run) -> Option<bool> {
+    let mut other = run.beside(BESIDE * system.equilibrium.gap);
+    let (mut apart, mut largest) = (0.0_f64, 0.0_f64);
+    for _ in 0..FOLLOWED {
+        run.advance(1)?;
+        other.advance(1)?;
+        let [a, b] = [run.state(), other.state()].map(|state| system.tip_displacement(&state));
+        apart = apart.max((a - b).abs());
+        largest = largest.max(a.abs());
+    }
+    Some(apart > APART * largest)
 }
 
 /// How an answer stands to the truth.
@@ -127,8 +168,10 @@ pub(crate) fn standing(truth: &Truth, motion: Motion, v_rms: f64, room: f64) -> 
             periods == orbit.periods && near(orbit.measures.v_rms)
         }
         (Truth::Ended, Motion::Escape { .. } | Motion::Contact { .. }) => true,
-        (Truth::Open(expected), Motion::Quasiperiodic) => near(*expected),
-        (Truth::Open(expected), Motion::Chaotic) => (v_rms / expected - 1.0).abs() <= CHANCE,
+        (Truth::Open { v_rms: expected, chaotic: false, .. }, Motion::Quasiperiodic) => near(*expected),
+        (Truth::Open { v_rms: expected, chance, chaotic: true }, Motion::Chaotic) => {
+            (v_rms / expected - 1.0).abs() <= room.max(*chance)
+        }
         _ => false,
     };
     if right { Standing::Right } else { Standing::Wrong }

@@ -37,12 +37,12 @@ const BESIDE: usize = 10;
 /// Excitation periods that a chaotic one of them must last, and integrator steps that each may cost.
 const BESIDE_LASTING: usize = 8000;
 const BESIDE_STEPS: u64 = 600_000;
+/// How far they are from it, relative to the gap: more than rounding, less than anybody could set.
+const BESIDE_BY: f64 = 1e-10;
 /// Excitation periods that a chaotic motion must last where something else attracts, on which a transient could end.
 const LASTING_BESIDE: usize = 96_000;
 /// A forced motion whose multiplier is below this is stable, or has just handed its stability to what branched off.
 const NEARLY_STABLE: f64 = 1.01;
-/// How far they are from it, relative to the gap: more than rounding, less than anybody could set.
-const BESIDE_BY: f64 = 1e-10;
 
 /// What was found out about the motion that a start leads to.
 #[derive(Debug)]
@@ -139,9 +139,9 @@ fn beside(
         return Ok((ends, false));
     }
     // A run that found the way out of chaos shows that there is one.
-    if reached.motion == Motion::Chaotic && !same && !undecided(&coarser) {
+    if reached.motion == Motion::Chaotic {
         ends.push((Signature::of(coarser), 1));
-        return Ok((ends, separated));
+        return Ok((ends, false));
     }
     let scales = scales(system);
     for k in 1..=BESIDE {

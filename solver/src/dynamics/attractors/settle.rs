@@ -446,7 +446,7 @@ impl Run<'_> {
             // On its way to a periodic motion: until it must be there, tangent vectors would tell nothing new.
             let period = self.settler.system.parameters.period();
             let decay = PATIENCE / (-witnesses.exponent.value * period);
-            self.resume = (self.instants + longer).max(self.instants + decay.min(1e9) as usize);
+            self.resume = self.instants + longer.max(decay.min(1e9) as usize);
             self.record = None;
         } else {
             self.record = Some(Record::new(&self.settler.system, longer));
