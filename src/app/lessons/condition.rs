@@ -46,11 +46,11 @@ impl Condition {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use serde_json::json;
 
-    fn holds(condition: &str, facts: &Value) -> bool {
+    pub(in crate::app::lessons) fn holds(condition: &str, facts: &Value) -> bool {
         let condition: Value = serde_json::from_str(condition).expect("JSON");
         Condition::read(&condition).expect("a condition").holds(facts)
     }

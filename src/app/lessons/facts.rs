@@ -46,12 +46,7 @@ pub fn facts_at_once(view: &View) -> Result<Value, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::lessons::condition::Condition;
-
-    fn holds(condition: &str, facts: &Value) -> bool {
-        let condition: Value = serde_json::from_str(condition).expect("JSON");
-        Condition::read(&condition).expect("a condition").holds(facts)
-    }
+    use crate::app::lessons::condition::tests::holds;
 
     #[test]
     fn the_facts_hold_view_verdict_and_theory() {
