@@ -1,4 +1,6 @@
 //! What the app asks of the browser, which does it after the frame.
+//!
+//! `bridge/files.rs` carries errands out. Dropped files other than measured data (`sharing::is_measured_data`) are scenarios, or refused with a reason.
 
 use super::text::Language;
 

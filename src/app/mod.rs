@@ -2,6 +2,20 @@
 //!
 //! A frame goes: [`App::ui`] lets the session compute for a few milliseconds, the panels draw from shared
 //! references and push commands, and the commands are carried out at the end, in one place.
+//!
+//! # How a frame goes
+//!
+//! 1. `App::logic` lets `Session::work` compute for at most 7 ms. A run is a `RunJob` that advances in slices of 400
+//!    steps; in the default model it is finished within one frame. Questions are numbered, an answer shows which one
+//!    it answers, and a plot that answers an older question is drawn faintly.
+//! 2. `App::ui` draws. `Curves`, sampled once when a run ends, are borrowed by the plots, not copied.
+//! 3. Commands are carried out: a change of the scenario asks the session a new question.
+//!
+//! A slow run is not restarted at every move of the hand: it may finish within 250 ms, then the newest question is
+//! taken up.
+//!
+//! Panels get a `Context` of references, made by `App::draw` only, and push commands; `App::carry_out` is the one
+//! place that changes anything. So a test draws every panel without a window.
 
 #[cfg(target_arch = "wasm32")]
 pub mod bridge;

@@ -2,6 +2,10 @@
 //!
 //! Not undone is what suits the room and the eyes rather than the question: the theme, the size of type, whether the
 //! beam moves. Those stay as they are when steps are taken back.
+//!
+//! `App::step` carries a command out and gives `app::history` the moment before it, if anything changed: the view
+//! without its looks, and the pinned curves. Changes merge while a pointer or a key is down, so that a drag is one step. Links, files and
+//! `load()` are steps, too.
 
 use super::App;
 use super::command::Command;

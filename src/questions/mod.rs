@@ -2,6 +2,16 @@
 //! are put together, and its answer; and the sliced run behind the page's plots.
 //!
 //! [`list`] names them all.
+//!
+//! A question is one type (`questions::Question`): its fields with their defaults, as they stand in a request; the
+//! device, the model and the start are a `Scenario` beside it, read by `questions::subject` in the same way for all.
+//! `list::TASKS` drives the reading of requests, the command's help, the README's table (held by a test) and
+//! `harvester.solve`. The page asks the same types: a study is begun from a scenario and a question, and "copy as
+//! program" serialises both (`questions::written`).
+//!
+//! JSON is read in two steps: `input::json` makes values of it, `input::fields` makes fields of those, by one
+//! deserialiser that knows the path and speaks plainly: a wrapper around the library's would be compiled once more for
+//! every type.
 
 use crate::scheduler::Budget;
 use list::TASKS;

@@ -3,6 +3,26 @@
 //!
 //! The page's own script (`assets/shell/start.js`) shows the loading and failure screens, loads this module and turns
 //! the exported functions into `window.harvester`.
+//!
+//! The address is only written to once, when the view departs from the link in it (`bridge/address.rs`).
+//!
+//! # The shell around the canvas
+//!
+//! The canvas is opaque to screen readers and to the browser, so `index.html` holds what must not depend on it:
+//! screens for loading and failing, native controls, and what keeps the page for use without a network.
+//!
+//! * `assets/shell/mirror.js` uses nothing but `window.harvester` and its event: `bridge/mirror.rs` compares
+//!   `app::mirror::Signs` once a frame and tells the page at most every 200 ms. A change goes through `App::change`,
+//!   which reads names and values as links do, so a number is checked in one place. The verdict is spoken when the
+//!   hand rests. Tab stays in the canvas until Escape, because egui keeps it.
+//! * `keyboard::keep_focus_in_view` scrolls to what Tab has reached; a test walks through every page at two widths.
+//! * A panic, a trap of the compiled code and a lost graphics context end in `fail` of `start.js`, with the stored
+//!   state. What no script can tell, because none runs, the style sheet shows after ten seconds (`#late`).
+//! * `service.js` keeps exactly one build. `scripts/precache.py` writes its files with SHA-256 digests into it after
+//!   each build; it installs all of them or none, and a half replaced site fails the digests. It takes over at once,
+//!   but the page in view goes on with its own build: names with hashes keep two builds apart, and the cache before
+//!   the present one is kept.
+//! * The Content-Security-Policy allows no inline script; tests put theirs in from outside.
 
 mod address;
 mod around;

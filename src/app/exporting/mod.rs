@@ -2,6 +2,11 @@
 //!
 //! What a plot shows is taken down while the page is drawn once more where nobody sees it, in the light theme: with the
 //! page's own memory, so that plots stay as they were zoomed, or afresh, for plots that are not in view.
+//!
+//! `App::figures` does so, and `widgets::recorder` collects what the helpers of `plot_style`,
+//! `raster`, `legend` and `swatch` draw. A panel that draws by these is exported without code of its own; only the
+//! values behind a coloured chart are told apart (`recorder::cells`). Drawing, picture and table are made from the
+//! same `export::Figure`. The browser makes pictures from drawings (`assets/shell/picture.js`).
 
 mod question;
 mod report;

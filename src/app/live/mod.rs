@@ -1,4 +1,16 @@
 //! The Live tab's run: time goes on with the numbers in view while the page shows it.
+//!
+//! `App::ui` lets `live::Live` go on by the time since the last frame, for at most 6 ms; what cannot be kept is told,
+//! not made up for. It counts excitation periods, `turns`: the phase is 2π `turns` and stays continuous when the
+//! frequency changes. Every read (64 samples a period, those of the sound, the end of the frame) is dense output of
+//! `dynamics::Ongoing`, which is the integrator with its present step. A changed number or a kick begins another one
+//! at the last state and phase (`Collocation::from_phase`); its tables take 0.1 ms for two modes, 0.7 ms for eight
+//! with another structure, so every frame of a drag has its own. Modal coordinates are carried over as they are, also
+//! when the equilibrium moves.
+//!
+//! Only what is looked at (`view::live`) is stored, linked and undone; the run is not. While the hand moves, the
+//! ordinary run of the other tabs waits. Sound is made as samples in Rust and played by `assets/shell/sound.js` piece
+//! by piece; each ends in a fade that the next one takes back, so that a late or a last piece does not click.
 
 mod action;
 mod run;

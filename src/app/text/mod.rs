@@ -2,6 +2,15 @@
 //!
 //! English is compiled in. The other catalogues (`assets/text`) are fetched when their language is chosen; until one is
 //! there, and for what it lacks, English stands in.
+//!
+//! `text::tr` is for fixed texts, `text::fill` for those with values, `text::marked` in tables. With Chinese comes a font
+//! of just the characters used (`assets/fonts/subset.sh chinese`). `app::speaking` has them fetched, the service worker
+//! keeps them like the rest; `scripts/precache.py` puts hashes into their names. The solver knows no languages: `text::core` finds its sentences
+//! by the words between their values, because those about motions and errors come from workers as texts; a test says
+//! each one and fails when it is not known. Texts of `index.html` and `assets/shell` are listed in `text::page`, and
+//! the page's script puts them in. What may have to be said before the app is there has a small table in `start.js`.
+//! `tests/fast/texts.rs` holds sources, catalogues and fonts together: a new text needs its line in both catalogues,
+//! and a new Chinese character another run of `subset.sh`.
 
 mod core;
 mod language;

@@ -1,4 +1,10 @@
 //! The sets of colours: dark and light, each also with high contrast.
+//!
+//! This is the only place with colours of the page. A theme is known by its page colour (`Tokens::in_force`), so that panels need no more than `theme::tokens(ui)`. The
+//! palette's tests hold contrast (WCAG 2.2) and difference: kinds of motion, which fill areas, differ by CIEDE2000 10
+//! for normal sight and for simulated protanopia, deuteranopia and tritanopia; curves and marks of one plot differ by
+//! line style or mark. A new series or plot belongs into the table of that test. The shell's style sheets follow by
+//! `data-look`.
 
 use egui::{Color32, Stroke, Visuals};
 

@@ -12,6 +12,22 @@
 //!
 //! Reference: collocation at Gauss points is of order 2m (Hairer, Norsett & Wanner, "Solving Ordinary
 //! Differential Equations I", section II.7); its exponential form is in Hochbruck & Ostermann, Acta Numerica 2010.
+//!
+//! The propagator ([`super::propagator`]) doubles a Taylor series over a short duration until it reaches the step, so that
+//! a rate of 10^7 costs 20 doublings and no digits; dense output uses the same flows. Consequences:
+//!
+//! * The same code serves any number of modes and any force law; a step costs about 0.2 µs for two modes.
+//! * Stiff high modes and short circuit times do not limit the step, and no device is too stiff to prepare. A Taylor
+//!   series of the whole system, the method tried first on paper, is as fast for two modes but needs steps of
+//!   1/omega_N for N.
+//! * The end of a step is of order sixteen.
+//! * Work inside a step is over fixed arrays of eight, which compilers turn into vector code for x86 and wasm alike.
+//!
+//! Error control: the two highest Legendre coefficients of R in a step, times how far they move s within the step
+//! (`StepTables::gain`) and at its end (`StepTables::end_gain`), are held below the tolerance and its square.
+//!
+//! What is read off a run lies on the motion, not on its grid: `integration::extremes` keeps the steps that may hold
+//! an extreme and reads it there by dense output; means are over whole pairs of excitation periods.
 
 use super::grid::{DEEPEST_LEVEL, Grid};
 use super::linear::LinearPart;
