@@ -192,7 +192,7 @@ fn complaint(name: &str, unknown: &[String], allowed: &[&str]) -> Option<String>
     Some(fill("Not understood in {name}: {unknown}. There are {allowed}.", &values))
 }
 
-/// The tab to which a plot belongs; none to the fixed four of a tab that has pages.
+/// The tab on which a plot stands.
 #[must_use]
 pub const fn tab(panel: Panel) -> Tab {
     match panel {

@@ -13,20 +13,20 @@ use super::view::{Tab, View};
 /// The entries that have native controls, by their names in links and in `index.html`.
 const ENTRIES: [&str; 6] = ["alpha", "beta", "omega", "modes", "force", "tab"];
 
-/// What the mirror depends on; cheap to compare with that of another moment.
+/// Everything the mirror shows, in a form that two frames can compare quickly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signs {
     view: View,
     steps: (bool, bool),
-    /// The answer that can be told: nothing is being computed that would change it.
+    /// Number of the answer behind the verdict, once nothing is being computed that would change it.
     answer: Option<u64>,
     failure: Option<String>,
-    /// The verdict is told again in another language.
+    /// A change of language has the verdict spoken again.
     language: Language,
 }
 
 impl App {
-    /// The signs of this moment. While `hand_moves`, no verdict is told.
+    /// The signs of this frame. While `hand_moves` there is no verdict in them.
     pub fn signs(&self, hand_moves: bool) -> Signs {
         let status = self.session.status();
         let rests = status == Status::Done && !hand_moves && self.has_verdict();

@@ -194,7 +194,7 @@ impl App {
         self.embed = Embed::read(search);
     }
 
-    /// Whether it does.
+    /// Whether the page shows only the parts that its address asks for.
     pub fn is_embedded(&self) -> bool {
         self.embed.is_some()
     }

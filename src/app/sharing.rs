@@ -23,7 +23,7 @@ pub const FIRST: usize = measured::FIRST;
 /// Looks whether a file of this name, with these `first` bytes of `size`, can be opened at all, before the rest is read.
 ///
 /// # Errors
-/// Why not.
+/// One sentence that says why the file cannot be used.
 pub fn look(name: &str, first: &[u8], size: usize) -> Result<(), String> {
     if !is_scenario(name, first) {
         return measured::look(first, size).map_err(|error| error.to_string());

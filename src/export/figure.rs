@@ -130,7 +130,7 @@ pub enum Layer {
         pen: Pen,
         /// Whether it is upright.
         upright: bool,
-        /// Where.
+        /// Its value on the axis it crosses.
         at: f64,
     },
     /// A text.
@@ -139,7 +139,7 @@ pub enum Layer {
         text: String,
         /// Its colour.
         colour: Rgba,
-        /// Where.
+        /// Its place, in the units of the axes.
         place: [f64; 2],
         /// What of it stands there.
         anchor: Anchor,
@@ -148,14 +148,14 @@ pub enum Layer {
     Special {
         /// Its name.
         name: String,
-        /// Where.
+        /// Its place, in the units of the axes.
         place: [f64; 2],
     },
     /// The operating point, as on the page.
     Here {
-        /// What it is.
+        /// Its name in the legend.
         name: String,
-        /// Where.
+        /// Its place, in the units of the axes.
         place: [f64; 2],
     },
 }

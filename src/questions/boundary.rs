@@ -15,7 +15,7 @@ use crate::theory::{CoupledModes, Published, Resonance, TheoryError};
 /// modes and 25 with eight.
 const MOST_CLOSED: usize = 100_000;
 const MOST_FLOQUET: usize = 10_000;
-/// Allowed limits of the search by multipliers: below the lowest, nothing could be told from nothing.
+/// Allowed limits of the search by multipliers: below the lowest, rounding hides the multipliers' change.
 const LIMITS: (f64, f64) = (1e-6, Parameter::Beta.range().1);
 
 /// A stability boundary; the scenario's beta and omega play no role, and the closed theories use the quadratic term of its

@@ -71,7 +71,7 @@ pub enum JsonError {
         "{path}: a text of {length} characters stands where names and words are, which have at most {LONGEST}"
     )]
     Long {
-        /// Where.
+        /// Its place in the input, as names and indices.
         path: String,
         /// How long it is.
         length: usize,

@@ -98,7 +98,7 @@ pub struct Fitted {
     pub mode: usize,
     /// Whose tongue is traced.
     pub resonance: Resonance,
-    /// How far.
+    /// Frequencies and excitations looked at.
     pub window: Window,
 }
 

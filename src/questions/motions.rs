@@ -48,8 +48,8 @@ impl Coordinate {
         starts.chain(parameters).chain(dimensions).find(|coordinate| coordinate.name(modes) == name)
     }
 
-    /// Lowest and highest value on it: a parameter's or a dimension's own range, ten beam lengths for a displacement (where every motion
-    /// counts as escaped), and no less for velocities and voltage.
+    /// Lowest and highest value on it: the own range of a parameter or a dimension; ten beam lengths for a displacement,
+    /// beyond which every motion counts as escaped; the same for velocities, or more.
     pub fn limits(self, modes: usize) -> (f64, f64) {
         let most = match self {
             Self::Parameter(parameter) => return parameter.range(),

@@ -41,9 +41,9 @@ pub struct ResponsePoint {
 /// A change of stability on a response curve.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Change {
-    /// How.
+    /// How stability is lost or regained.
     pub kind: Instability,
-    /// Where.
+    /// The periodic motion there.
     pub point: ResponsePoint,
 }
 
@@ -85,9 +85,9 @@ impl Piece for Response {
     }
 }
 
-/// Follows the forced motion of the device of `scenario` while a number that is `moved`, the base shaken so, goes
-/// through `range`, from the low end and,
-/// where it does not come through, from the high end too; then the doubled branches.
+/// Follows the forced motion of the device of `scenario` while a parameter goes through `range`, from the low end and, where
+/// it does not come through, from the high end too; then the doubled branches. `moved` is that parameter, and what of the
+/// base's motion stays meanwhile.
 ///
 /// The forced motion at an end is the one that Newton's iteration reaches from the linear response there. Branches that
 /// touch none of these, such as isolas, are not found.

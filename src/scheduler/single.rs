@@ -12,7 +12,7 @@ pub struct Single<P: Piece> {
 }
 
 impl<P: Piece> Single<P> {
-    /// Nothing found yet.
+    /// A study of this one piece, not yet begun.
     pub fn new(piece: P) -> Self {
         Self { piece, handed: false, found: None }
     }

@@ -12,7 +12,7 @@ pub struct Table<P: Piece> {
 }
 
 impl<P: Piece> Table<P> {
-    /// Nothing found yet.
+    /// A study of these pieces, not yet begun.
     pub fn new(pieces: Vec<P>) -> Self {
         Self { handed: 0, found: pieces.iter().map(|_| None).collect(), pieces }
     }

@@ -1,5 +1,5 @@
-//! Section 5.4 and the model's own limits: what voltage the ceramic bears, where the magnets touch, and how far the
-//! beam bends before it is no linear one.
+//! Section 5.4 and the model's own limits: the highest voltage of the ceramic, the distance at which the magnets touch,
+//! and the deflection up to which linear beam theory holds.
 //!
 //! The fields of section 5.4 are given in V per mil of an alternating voltage, without a word whether its peak or its
 //! root mean square is meant. They are read as peaks, and the motion's largest |v| is held against them: were they root

@@ -23,7 +23,7 @@ pub struct ReducedSystem {
     /// Capacitance of the circuit's equation (dimensionless): c, and c_r of [`Self::with_residual_moment`] where that
     /// counts.
     pub capacitance: f64,
-    /// Whether it does.
+    /// Whether the modes left out count in that capacitance.
     pub residual_moment: bool,
 }
 

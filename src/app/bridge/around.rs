@@ -33,7 +33,7 @@ impl Contrast {
         Self(query)
     }
 
-    /// Whether it is.
+    /// Whether the system asks for it.
     pub(super) fn is_wished(&self) -> bool {
         self.0.as_ref().is_some_and(|query| query.matches())
     }

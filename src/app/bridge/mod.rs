@@ -79,7 +79,7 @@ pub fn start() {
     });
 }
 
-/// Whether the page keeps an event for itself, so that the browser does nothing more with it.
+/// Whether the page uses an event itself, so that the browser must not act on it as well.
 fn keeps(event: &egui::Event) -> bool {
     RUNNING.with_borrow(|slot| {
         let app = slot.as_ref().and_then(|running| Some((running.app.try_borrow().ok()?, &running.context)));

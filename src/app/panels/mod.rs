@@ -98,7 +98,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// A card for one of the four plots, with its button to enlarge; a press is carried out.
+    /// A card for one of the plots of a tab, with a button that enlarges it.
     pub(super) fn plot_card(
         &mut self,
         ui: &mut egui::Ui,

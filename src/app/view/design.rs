@@ -64,7 +64,7 @@ pub enum Aim {
 /// A dimension that is varied, and how far; about its present value where no range is given.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Side {
-    /// Which.
+    /// The dimension varied.
     #[serde(default = "Side::usual")]
     pub dimension: Dimension,
     /// Lowest and highest value in its SI unit.

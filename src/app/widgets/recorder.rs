@@ -1,5 +1,5 @@
-//! Takes down what is drawn, for files. It is there only in frames that nobody sees (see `app/exporting.rs`); in others
-//! everything here does nothing.
+//! Records what is drawn, for exported files. It records only while `app::exporting` draws a frame for that purpose; in
+//! ordinary frames its functions do nothing.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};

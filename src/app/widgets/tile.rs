@@ -10,7 +10,7 @@ const NUMBER: f32 = 23.0;
 
 /// A tile.
 pub struct Tile<'a> {
-    /// What it is.
+    /// Name of the quantity.
     pub name: &'a str,
     /// The number, or a word.
     pub value: &'a str,

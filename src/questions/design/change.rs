@@ -54,7 +54,8 @@ impl Place {
 }
 
 /// The points of a curve between omega = `from` and `to`, two neighbours of it in their order, on the device of
-/// `scenario`, the base shaken so: as many that the powers of two differ by no more than a `difference` (W). Where the
+/// `scenario`, the base's motion following `shaking`: as many that the powers of two neighbours differ by at most
+/// `difference` (W). Where the
 /// motion changes, two points are a jump at one frequency, known within [`LOCATED`]; nothing stands where it ends.
 ///
 /// A sweep is refined by going in smaller steps, in which it may stay on a motion longer.

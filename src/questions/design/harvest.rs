@@ -67,7 +67,7 @@ impl Harvest {
 pub struct Forced {
     /// What it delivers, whether it is stable or not.
     pub harvest: Harvest,
-    /// Whether it is.
+    /// Whether it is stable.
     pub stable: bool,
     /// Modulus of its largest multiplier.
     pub multiplier: f64,

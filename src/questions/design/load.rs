@@ -156,9 +156,8 @@ pub struct BestFrequency {
     pub cut: bool,
 }
 
-/// The best frequency for a load of `resistance` (ohm) with omega in `window` (dimensionless), the base shaken
-/// so: of the linear device, and of
-/// the stable periodic motions on the forced branch and its doubled ones, all of them and those within `limits`.
+/// The best frequency for a load of `resistance` (ohm) with omega in `window` (dimensionless), the base's motion
+/// following `shaking`: of the linear device, and of the stable periodic motions on the forced branch and its doubled ones, all of them and those within `limits`.
 ///
 /// # Errors
 /// [`DesignError`].

@@ -41,7 +41,7 @@ pub fn with_ceramic(scenario: &Scenario, ceramic: Ceramic, mode: usize) -> Resul
 /// A ceramic on the device.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct MaterialRow {
-    /// Which.
+    /// The ceramic.
     pub ceramic: Ceramic,
     /// Damping alpha that it gives (dimensionless).
     pub alpha: f64,

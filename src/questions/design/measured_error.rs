@@ -74,7 +74,7 @@ pub enum MeasuredError {
     Text {
         /// Line.
         line: u64,
-        /// Why.
+        /// The reader's own reason.
         problem: String,
     },
 }

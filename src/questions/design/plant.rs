@@ -32,7 +32,7 @@ impl Plant {
         Self::with(scenario, kappa, leakage)
     }
 
-    /// The same plant, shaken so at other frequencies.
+    /// The same plant with a rule for what of the base's motion stays when the frequency changes.
     #[must_use]
     pub fn shaken(self, shaking: Shaking) -> Self {
         Self { shaking, ..self }

@@ -36,7 +36,7 @@ pub enum Motion {
     },
     /// The evidence does not decide.
     Undecided {
-        /// Why not.
+        /// Why it is undecided.
         why: Undecided,
     },
 }

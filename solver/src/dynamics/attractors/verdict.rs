@@ -21,7 +21,7 @@ use crate::number::in_sentence;
 
 /// Distance from the periodic motion, relative to the amplitude, beyond which the transient has not gone.
 const TRANSIENT: f64 = 1e-3;
-/// Error of the force law from which it is told, relative.
+/// Relative error of the force law from which the verdict warns of it.
 const FORCE_ERROR: f64 = 0.1;
 
 /// A Floquet multiplier.

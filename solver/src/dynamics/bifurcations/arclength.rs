@@ -60,7 +60,7 @@ impl<const K: usize> Family<K> {
         Ok(Self { system, periods, solver, difference, axes, origin, shaking, units, spare, columns, spent })
     }
 
-    /// The same, shaken so.
+    /// The same problem with another rule for the base's motion while the frequency changes.
     pub(super) fn shaken(self, shaking: Shaking) -> Self {
         Self { shaking, ..self }
     }

@@ -46,7 +46,7 @@ pub enum CriticalExcitation {
     Unstable {
         /// The lowest unstable beta (dimensionless).
         beta: f64,
-        /// How.
+        /// How it becomes unstable.
         instability: Instability,
         /// The multiplier that leaves the unit circle, the upper of a pair.
         multiplier: Complex<f64>,

@@ -1,11 +1,11 @@
-//! Why a device was not taken, in the dimensions and units of the page.
+//! Why a device was refused, in the dimensions and units of the page.
 
 use super::words::words;
 use crate::app::text::fill;
 use crate::app::widgets::number::{short, significant};
 use crate::model::{Device, Dimension, ElectricalScaling, ModelError, Parameter};
 
-/// The reason: a dimensionless number out of its range is told as the dimension that decides it.
+/// The reason; for a dimensionless number out of its range, the dimension that decides it.
 pub(super) fn in_words(device: &Device, scaling: ElectricalScaling, error: &ModelError) -> String {
     let told = match error {
         ModelError::OutOfRange { field, value, .. } => out_of_range(device, scaling, field, *value),

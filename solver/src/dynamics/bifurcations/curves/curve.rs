@@ -140,7 +140,7 @@ impl fmt::Display for SpecialKind {
 /// A point of codimension two on a curve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct SpecialPoint {
-    /// What it is.
+    /// Its kind.
     pub kind: SpecialKind,
     /// The two parameters.
     pub at: [f64; 2],
@@ -163,7 +163,7 @@ pub enum CurveEnd {
     Window,
     /// A point of codimension two in which curves of this kind end; it is the curve's last point.
     Meeting {
-        /// Which.
+        /// The point's kind.
         special: SpecialKind,
     },
     /// The next point could not be found: the motion touches or escapes, or there is no device.
