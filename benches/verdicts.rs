@@ -11,6 +11,7 @@ mod by_hand;
 #[path = "../tests/slow/tips/truth.rs"]
 mod truth;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use by_hand::ByHand;
@@ -112,6 +113,9 @@ impl Run for Independent {
     }
 }
 
+/// Points after which it is said how far the bench is.
+const REPORTED: usize = 50;
+
 /// What a verdict is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Worth {
@@ -147,6 +151,7 @@ fn run(name: &str, count: usize, seed: u64, draw: fn(&mut fastrand::Rng) -> (Par
         .filter_map(|(set, model)| model.system(set).ok().map(|system| (set, model, system)))
         .take(count)
         .collect();
+    let done = AtomicUsize::new(0);
     let tried = drawn.into_par_iter().map(|(set, model, system)| {
         let begun = Instant::now();
         let verdict = Verdict::of(&system, &vec![0.0; system.dimension()], 600.0);
@@ -163,6 +168,10 @@ fn run(name: &str, count: usize, seed: u64, draw: fn(&mut fastrand::Rng) -> (Par
             }
             worth
         });
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        if done.is_multiple_of(REPORTED) {
+            eprintln!("{name}: {done} of {count}");
+        }
         (worth, time)
     });
     let (worths, mut times): (Vec<Worth>, Vec<f64>) = tried.unzip();

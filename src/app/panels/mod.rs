@@ -127,6 +127,15 @@ impl<'a> Context<'a> {
     }
 }
 
+/// Says that branches are missing, where `some` are.
+fn say_cut(ui: &mut egui::Ui, some: bool) {
+    if some {
+        let text = tr("Some branches were not followed to their ends: it would take too long.");
+        let text = egui::RichText::new(text).small().color(super::theme::tokens(ui).warning);
+        ui.add(egui::Label::new(text).wrap());
+    }
+}
+
 /// What is said of work under way, by its done part, 0 to 1.
 fn computing(part: f64) -> String {
     fill("computing {percent} %", &[("percent", &format!("{:.0}", 100.0 * part))])

@@ -91,6 +91,7 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
         }
         _ => (&[], false),
     };
+    super::say_cut(ui, branches.iter().any(|branch| branch.cut));
     let lines: Vec<(Series, String, Vec<PlotPoint>)> =
         branches.iter().flat_map(|curve| lines(curve, &measure)).collect();
     let marks: Vec<(String, [f64; 2])> = branches.iter().flat_map(|curve| marks(curve, &measure)).collect();

@@ -8,8 +8,7 @@ use super::load::best_frequencies;
 use super::optimum::Optimum;
 use super::safety::Safety;
 use crate::app::bench::questions;
-use crate::app::panels::computing;
-use crate::app::panels::{Context, grid};
+use crate::app::panels::{Context, computing, grid, say_cut};
 use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::widgets::Card;
@@ -128,6 +127,7 @@ fn both(context: &mut Context<'_>, ui: &mut Ui) {
         }
         line(ui, tr("A start at rest may lead to another motion."));
     }
+    say_cut(ui, best.iter().any(|best| best.cut));
     let held = held(context.view);
     line(ui, &fill("Within the window of frequencies of the page Harvest, {held}.", &[("held", &held)]));
 }

@@ -6,8 +6,7 @@ use egui_plot::PlotPoint;
 use super::going::go_to;
 use super::measure::{Measure, values};
 use super::safety::{Safety, beyond};
-use crate::app::panels::Context;
-use crate::app::panels::computing;
+use crate::app::panels::{Context, computing, say_cut};
 use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::view::Panel;
@@ -105,6 +104,8 @@ fn curves(study: &HarvestStudy) -> Vec<(Series, String, Vec<HarvestPoint>)> {
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
+    let branches = study.branches().and_then(Result::ok).unwrap_or_default();
+    say_cut(ui, branches.iter().any(|branch| branch.cut));
     let view = context.view;
     let watched = view.design.watched;
     let curves = curves(study);
