@@ -10,8 +10,8 @@
 
 use std::cell::Cell;
 
-use super::text::{fill, marked, tr};
-use super::view::{Panel, Tab, View};
+use super::text::{fill, tr};
+use super::view::Panel;
 use crate::model::{Dimension, Parameter};
 
 /// Characters of an unknown name that are repeated, and names that are.
@@ -29,26 +29,8 @@ pub enum Part {
     Plot(Panel),
 }
 
-/// The parts with their names in addresses, and what they are called.
-pub const PARTS: [(Part, &str, &str); 17] = [
-    (Part::Verdict, "verdict", marked("Verdict")),
-    (Part::Plot(Panel::StabilityMap), "map", marked("Stability map")),
-    (Part::Plot(Panel::PhasePortrait), "phase", marked("Phase portrait")),
-    (Part::Plot(Panel::PoincareMap), "poincare", marked("Poincaré map")),
-    (Part::Plot(Panel::TimeHistory), "time", marked("Time history")),
-    (Part::Beam, "beam", marked("The beam")),
-    (Part::Plot(Panel::Chart), "chart", marked("Stability chart")),
-    (Part::Plot(Panel::Multipliers), "multipliers", marked("Multipliers")),
-    (Part::Plot(Panel::Curves), "curves", marked("Bifurcation curves")),
-    (Part::Plot(Panel::Basins), "basins", marked("Basins of attraction")),
-    (Part::Plot(Panel::Spectrum), "spectrum", marked("Spectrum")),
-    (Part::Plot(Panel::Evidence), "evidence", marked("Evidence")),
-    (Part::Plot(Panel::OrbitDiagram), "orbit", marked("Orbit diagram")),
-    (Part::Plot(Panel::Response), "response", marked("Response curves")),
-    (Part::Plot(Panel::Harvest), "harvest", marked("Over frequency")),
-    (Part::Plot(Panel::Load), "load", marked("Over the load")),
-    (Part::Plot(Panel::MagnetForce), "force", marked("The magnets' force")),
-];
+/// Parts with their names in addresses, and what they are called.
+pub type Parts = Vec<(Part, &'static str, &'static str)>;
 
 /// What can be changed in an embedded page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,16 +63,17 @@ pub struct Embed {
 }
 
 impl Embed {
-    /// Reads the part of an address from `?` on. `None` when it is that of the whole page.
+    /// Reads the part of an address from `?` on, which names some of `all` parts; the first two plots when it names none.
+    /// `None` when it is that of the whole page.
     #[must_use]
-    pub fn read(search: &str) -> Option<Self> {
+    pub fn read(search: &str, all: &Parts) -> Option<Self> {
         let (mut parts, mut controls) = (None, Vec::new());
         let (mut unknown_parts, mut unknown_controls) = (Vec::new(), Vec::new());
         for (name, value) in form_urlencoded::parse(search.trim_start_matches('?').as_bytes()) {
             let words = value.split([',', ' ']).filter(|word| !word.is_empty());
             match &*name {
                 "embed" => {
-                    let known = |word: &str| PARTS.iter().find(|part| part.1 == word).map(|part| part.0);
+                    let known = |word: &str| all.iter().find(|part| part.1 == word).map(|part| part.0);
                     collect(words, &known, parts.get_or_insert_default(), &mut unknown_parts);
                 }
                 "controls" => collect(words, &control, &mut controls, &mut unknown_controls),
@@ -99,9 +82,9 @@ impl Embed {
         }
         let mut parts = parts?;
         if parts.is_empty() {
-            parts = vec![Part::Plot(Panel::StabilityMap), Part::Plot(Panel::PhasePortrait)];
+            parts.extend(all.iter().map(|part| part.0).filter(|part| matches!(part, Part::Plot(_))).take(2));
         }
-        let part_names: Vec<&str> = PARTS.iter().map(|part| part.1).collect();
+        let part_names: Vec<&str> = all.iter().map(|part| part.1).collect();
         let complaints = [
             complaint("embed", &unknown_parts, &part_names),
             complaint("controls", &unknown_controls, &control_names()),
@@ -192,46 +175,10 @@ fn complaint(name: &str, unknown: &[String], allowed: &[&str]) -> Option<String>
     Some(fill("Not understood in {name}: {unknown}. There are {allowed}.", &values))
 }
 
-/// The tab on which a plot stands.
+/// The element that shows the parts of these names of the page at `address`, as HTML.
 #[must_use]
-pub const fn tab(panel: Panel) -> Tab {
-    match panel {
-        Panel::StabilityMap | Panel::PhasePortrait | Panel::PoincareMap | Panel::TimeHistory => Tab::Explore,
-        Panel::Chart
-        | Panel::Multipliers
-        | Panel::Curves
-        | Panel::Basins
-        | Panel::Spectrum
-        | Panel::Evidence => Tab::Stability,
-        Panel::OrbitDiagram | Panel::Response => Tab::Sweep,
-        Panel::Oscilloscope | Panel::LivePortrait | Panel::LiveBeam => Tab::Live,
-        Panel::Harvest | Panel::Load | Panel::MagnetForce | Panel::DesignMap | Panel::Measured => Tab::Design,
-    }
-}
-
-/// The parts to begin with when what is in view is to be embedded, by their places in [`PARTS`].
-#[must_use]
-pub fn usual(view: &View) -> Vec<usize> {
-    let of = |wanted: &dyn Fn(Panel) -> bool| -> Vec<usize> {
-        let shows = |i: &usize| matches!(PARTS[*i].0, Part::Plot(panel) if wanted(panel));
-        (0..PARTS.len()).filter(shows).collect()
-    };
-    let own = of(&|panel| view.enlarged == Some(panel));
-    if !own.is_empty() {
-        return own;
-    }
-    let tab_in_view =
-        if matches!(view.tab, Tab::Paper | Tab::Lessons | Tab::Live) { Tab::Explore } else { view.tab };
-    let mut first = of(&|panel| tab(panel) == tab_in_view);
-    first.truncate(2);
-    first
-}
-
-/// The element that shows these parts (by their places in [`PARTS`]) of the page at `address`, as HTML.
-#[must_use]
-pub fn snippet(address: &str, fragment: &str, parts: &[usize], controls: &[&str]) -> String {
-    let names: Vec<&str> = parts.iter().filter_map(|i| PARTS.get(*i)).map(|part| part.1).collect();
-    let query = format!("embed={}&controls={}", names.join(","), controls.join(","));
+pub fn snippet(address: &str, fragment: &str, parts: &[&str], controls: &[&str]) -> String {
+    let query = format!("embed={}&controls={}", parts.join(","), controls.join(","));
     let source = format!("{address}?{query}#{fragment}").replace('&', "&amp;").replace('"', "&quot;");
     let title = tr("Harvester Lab");
     format!(

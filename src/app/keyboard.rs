@@ -5,8 +5,8 @@ use egui::{Context, Id, Key, Modifiers, Popup, Ui};
 
 use super::command::{Command, Commands};
 use super::live::LiveAction;
-use super::panels::{explore, live, shortcuts, stability, sweep};
-use super::view::design::Page;
+use super::panels::spec::Place;
+use super::panels::{list, shortcuts};
 use super::view::{Panel, Tab, View};
 use super::widgets::parameter_slider;
 
@@ -88,18 +88,7 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
 
 /// The plot after the one that fills the page; none after the last.
 fn next_plot(view: &View) -> Option<Panel> {
-    let plots: &[Panel] = match (view.tab, view.design.page) {
-        (Tab::Explore, _) => &explore::PANELS,
-        (Tab::Live, _) => &live::PANELS,
-        (Tab::Stability, _) => &stability::PANELS,
-        (Tab::Sweep, _) => &sweep::PANELS,
-        (Tab::Design, Page::Harvest) => &[Panel::Harvest],
-        (Tab::Design, Page::Load) => &[Panel::Load],
-        (Tab::Design, Page::Trust) => &[Panel::MagnetForce],
-        (Tab::Design, Page::Search) => &[Panel::DesignMap],
-        (Tab::Design, Page::Measured) => &[Panel::Measured],
-        (Tab::Design | Tab::Paper | Tab::Lessons, _) => &[],
-    };
+    let plots = list::at(Place::of(view));
     let present = view.enlarged.and_then(|enlarged| plots.iter().position(|plot| *plot == enlarged));
     plots.get(present.map_or(0, |place| place + 1)).copied()
 }

@@ -30,6 +30,7 @@ pub mod widgets;
 #[cfg(all(feature = "window", not(target_arch = "wasm32")))]
 pub mod window;
 
+mod asking;
 mod bench;
 mod caption;
 mod carrying_out;
@@ -165,7 +166,7 @@ impl App {
     /// Asks the crew for what the page shows beside the run, and lets it go on.
     fn study(&mut self, context: &egui::Context) {
         let mut crew = self.crew.borrow_mut();
-        crew.studies.follow(&self.view, &self.session, self.embed.as_ref());
+        asking::ask(&mut crew.studies, &self.view, &self.session, self.embed.as_ref());
         crew.tick(context.input(|input| input.pointer.any_down()));
         if crew.works_on_this_thread() && crew.is_busy() {
             context.request_repaint();
@@ -185,13 +186,13 @@ impl App {
     /// Gives the crew what the view asks for now, without waiting for the next frame.
     fn follow(&mut self) {
         let mut crew = self.crew.borrow_mut();
-        crew.studies.follow(&self.view, &self.session, self.embed.as_ref());
+        asking::ask(&mut crew.studies, &self.view, &self.session, self.embed.as_ref());
         crew.hand_out();
     }
 
     /// Shows only what the part of an address from `?` on asks for, if it does.
     pub fn embed(&mut self, search: &str) {
-        self.embed = Embed::read(search);
+        self.embed = Embed::read(search, &panels::parts::parts());
     }
 
     /// Whether the page shows only the parts that its address asks for.

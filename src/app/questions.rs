@@ -3,6 +3,7 @@
 use super::map::{self, Boundaries};
 use super::session::Session;
 use super::view::{Layer, SweepView, View};
+use crate::dynamics::bifurcations::tongue::Window;
 use crate::model::{Parameter, ParameterSet, Shaking};
 use crate::questions::basin::Basin;
 use crate::questions::chart::{Chart, Quantity};
@@ -16,6 +17,10 @@ const CHART: (usize, usize) = (256, 256);
 /// The same of the chart of motions, and of the plane of starts.
 const MOTIONS: (usize, usize) = (80, 60);
 const BASIN: usize = 64;
+/// Half the width of the window in which exact tongues are traced: a little more than a map shows.
+const TONGUE_SPAN: f64 = 0.8;
+/// Upper ends of that window: the lowest one above what the map shows is taken.
+const TONGUE_LIMITS: [f64; 2] = [0.04, 0.2];
 /// A structural parameter is swept from its value over this to its value times this.
 const SPAN: f64 = 4.0;
 /// A sweep that would be empty is widened to this fraction of the parameter's whole range.
@@ -39,6 +44,16 @@ pub(super) fn chart(view: &View, boundaries: &Boundaries) -> (Scenario, Chart) {
     let scenario = view.scenario.forgetting(&excitation).forgetting(&[Forgotten::Duration]);
     let scenario = if multipliers { scenario.forgetting(&[Forgotten::Start]) } else { scenario };
     (scenario, Chart { omega, beta, quantity })
+}
+
+/// The exact tongues of the device in view, whatever its excitation and start.
+pub(super) fn tongues(view: &View) -> (Scenario, Window) {
+    let Scenario { parameters, model, .. } = view.scenario;
+    let usual = ParameterSet::default();
+    let parameters = ParameterSet { omega: usual.omega, beta: usual.beta, ..parameters };
+    let ceiling = map::ceiling(view.map, view.scenario.parameters.beta);
+    let limit = TONGUE_LIMITS.into_iter().find(|limit| *limit >= ceiling).unwrap_or(TONGUE_LIMITS[1]);
+    (Scenario { parameters, model, ..Scenario::default() }, Window { span: TONGUE_SPAN, limit })
 }
 
 /// The basins of the scenario in view, whatever its start.

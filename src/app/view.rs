@@ -3,6 +3,7 @@
 pub mod design;
 mod front;
 pub mod live;
+mod panel;
 mod salvage;
 mod sweep;
 
@@ -10,8 +11,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::design::DesignView;
-pub use self::front::{Layer, MapWindow, Panel, Tab};
+pub use self::front::{Layer, MapWindow, Tab};
 use self::live::LiveView;
+pub use self::panel::Panel;
+pub(in crate::app) use self::panel::panels;
 use self::salvage::salvage;
 pub use self::sweep::{Output, SweepView};
 use super::figures::{self, Figure};

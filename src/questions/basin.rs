@@ -11,7 +11,7 @@ use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::attractors::signature::{Recogniser, Signature};
 use crate::model::{ReducedSystem, state_dimension};
 use crate::scenario::Scenario;
-use crate::scheduler::{Budget, Order, Study, complete_within};
+use crate::scheduler::{Asked, Budget, Order, Study, complete_within};
 
 /// A plane of starts, displacement and velocity of the first mode unless it says otherwise; the scenario's start gives the
 /// other components. A start is followed until its motion is known, whatever the scenario's duration.
@@ -198,8 +198,7 @@ struct Known {
 /// Basins being computed from coarse to fine, first along their borders.
 #[derive(Debug, Clone)]
 pub struct BasinStudy {
-    scenario: Scenario,
-    question: Basin,
+    asked: (Scenario, Basin),
     chart: MotionChart,
     recogniser: Recogniser,
     /// The start of the scenario, length 2N + 1.
@@ -221,8 +220,7 @@ impl BasinStudy {
         plane.validate()?;
         let initial = scenario.initial.clone().unwrap_or_else(|| vec![0.0; system.dimension()]);
         Ok(Self {
-            scenario,
-            question,
+            asked: (scenario, question),
             chart: MotionChart::new(plane),
             recogniser: Recogniser::new(&system),
             initial,
@@ -230,16 +228,6 @@ impl BasinStudy {
             order: Vec::new(),
             rank: Vec::new(),
         })
-    }
-
-    /// What was asked.
-    pub fn question(&self) -> &Basin {
-        &self.question
-    }
-
-    /// About which device, excitation, and start of the other components.
-    pub fn scenario(&self) -> &Scenario {
-        &self.scenario
     }
 
     /// Indices of the components (q_1..q_N, dq_1/dt.., v) that change from column to column and from row to row, each with
@@ -306,6 +294,14 @@ fn recognise(
     let start = signature.states.first().cloned().unwrap_or_else(start);
     known.push(Known { signature, start, cells: 1 });
     known.len() - 1
+}
+
+impl Asked for BasinStudy {
+    type Question = (Scenario, Basin);
+
+    fn asked(&self) -> &Self::Question {
+        &self.asked
+    }
 }
 
 impl Study for BasinStudy {

@@ -9,7 +9,7 @@ use crate::dynamics::bifurcations::curves::{
 use crate::dynamics::{Axis, OrbitError, Plane};
 use crate::model::Parameter;
 use crate::scenario::Scenario;
-use crate::scheduler::{Failure, Order, Piece, Study};
+use crate::scheduler::{Asked, Failure, Order, Piece, Study};
 
 /// The parameters that a plane may have.
 pub const PARAMETERS: [Parameter; 5] =
@@ -135,6 +135,14 @@ impl CurvesStudy {
     /// Whether another piece under way may trace the curve of `start`: then its end is awaited.
     fn awaited(&self, start: &Start) -> bool {
         self.traced.iter().any(|(_, other)| (other.kind, other.periods) == (start.kind, start.periods))
+    }
+}
+
+impl Asked for CurvesStudy {
+    type Question = CurvesQuestion;
+
+    fn asked(&self) -> &Self::Question {
+        &self.question
     }
 }
 

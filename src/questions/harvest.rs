@@ -23,7 +23,7 @@ use crate::dynamics::attractors::signature::Signature;
 use crate::dynamics::attractors::sweep::{Dwell, SweepPoint};
 use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::{Scenario, counted};
-use crate::scheduler::{Budget, Failure, Order, Piece, Study, complete_within};
+use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
 use crate::spacing;
 
 /// Frequencies of a piece of work.
@@ -269,8 +269,7 @@ struct Change {
 /// The curves being computed.
 #[derive(Debug, Clone)]
 pub struct HarvestStudy {
-    scenario: Scenario,
-    question: Harvest,
+    asked: (Scenario, Harvest),
     /// Lowest and highest omega (dimensionless).
     window: (f64, f64),
     plant: Plant,
@@ -325,21 +324,10 @@ impl HarvestStudy {
             changes: None,
             changes_handed: 0,
             plant,
-            scenario,
-            question,
+            asked: (scenario, question),
             window,
             failure: None,
         })
-    }
-
-    /// What is asked.
-    pub fn question(&self) -> &Harvest {
-        &self.question
-    }
-
-    /// About which device.
-    pub fn scenario(&self) -> &Scenario {
-        &self.scenario
     }
 
     /// Lowest and highest frequency (Hz).
@@ -469,14 +457,14 @@ impl HarvestStudy {
                 let values = self.sweeps.question().values(*direction);
                 let (begin, state) = self.sweeps.begun(*direction, *index)?;
                 let visited = values[*begin..=*index].to_vec();
-                let (state, dwell) = (state.clone(), self.question.dwell);
+                let (state, dwell) = (state.clone(), self.asked.1.dwell);
                 let way = ChangeWay::Sweep { state, values: visited, dwell };
                 (way, (values[*index], values[index + 1]))
             }
         };
         let difference = *difference;
         self.changes_handed += 1;
-        let (scenario, shaking) = (self.scenario.clone(), self.question.hold);
+        let (scenario, shaking) = (self.asked.0.clone(), self.asked.1.hold);
         let piece = Between { scenario, shaking, way, neighbours, difference };
         Some(Order::new(piece, move |study: &mut Self, found| {
             if let Some(change) = study.changes.as_mut().and_then(|changes| changes.get_mut(handed)) {
@@ -535,6 +523,14 @@ fn pieces(curve: Vec<Option<HarvestPoint>>) -> Vec<Vec<HarvestPoint>> {
         .collect()
 }
 
+impl Asked for HarvestStudy {
+    type Question = (Scenario, Harvest);
+
+    fn asked(&self) -> &Self::Question {
+        &self.asked
+    }
+}
+
 impl Study for HarvestStudy {
     fn next(&mut self) -> Option<Order<Self>> {
         if self.failure.is_some() {
@@ -542,7 +538,7 @@ impl Study for HarvestStudy {
         }
         if !std::mem::replace(&mut self.branches_handed, true) {
             let (scenario, range) = (self.plant.scenario.clone(), self.window);
-            let (parameter, shaking) = (Parameter::Omega, self.question.hold);
+            let (parameter, shaking) = (Parameter::Omega, self.asked.1.hold);
             let piece = Response { scenario, parameter, shaking, range };
             return Some(Order::new(piece, |study: &mut Self, found| study.branches = Some(found)));
         }

@@ -13,7 +13,7 @@ use super::harvest::hertz;
 use super::question::Question;
 use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::{Scenario, counted};
-use crate::scheduler::{Budget, Failure, Order, Piece, Study, complete_within};
+use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
 
 /// Numbers of loads a decade may have.
 pub const PER_DECADE: (usize, usize) = (1, 50);
@@ -195,8 +195,7 @@ struct Chain {
 #[derive(Debug, Clone)]
 pub struct LoadStudy {
     /// The device, its frequency, and the start from which the motion at its own load is reached.
-    scenario: Scenario,
-    question: Load,
+    asked: (Scenario, Load),
     /// Lowest and highest omega (dimensionless) among which the best frequency is looked for; not looked for without.
     window: Option<(f64, f64)>,
     resistances: Vec<f64>,
@@ -244,8 +243,7 @@ impl LoadStudy {
         let chains = [chain((middle..count).collect()), chain((0..=middle).rev().collect())];
         let best = if window.is_some() { vec![None; count] } else { Vec::new() };
         Ok(Self {
-            scenario,
-            question,
+            asked: (scenario, question),
             window,
             linear,
             linear_best,
@@ -258,16 +256,6 @@ impl LoadStudy {
             failure: None,
             resistances,
         })
-    }
-
-    /// What is asked.
-    pub fn question(&self) -> &Load {
-        &self.question
-    }
-
-    /// About which device.
-    pub fn scenario(&self) -> &Scenario {
-        &self.scenario
     }
 
     /// The loads (ohm), ascending.
@@ -312,7 +300,7 @@ impl LoadStudy {
         chain.under_way = true;
         let indices = chain.indices.iter().skip(chain.done).take(PER_PIECE);
         let piece = Reached {
-            scenario: self.scenario.clone(),
+            scenario: self.asked.0.clone(),
             resistances: indices.map(|i| self.resistances[*i]).collect(),
             state: chain.state.clone(),
         };
@@ -337,14 +325,22 @@ impl LoadStudy {
         let index = self.best_handed;
         let resistance = *self.resistances.get(index)?;
         self.best_handed += 1;
-        let scenario = self.scenario.clone();
-        let limits = self.question.limits.completed(&scenario.base());
-        let shaking = self.question.hold;
+        let (scenario, question) = self.asked.clone();
+        let limits = question.limits.completed(&scenario.base());
+        let shaking = question.hold;
         let piece = BestAt { scenario, resistance, window, shaking, limits };
         Some(Order::new(piece, move |study: &mut Self, found| match found {
             Ok(found) => study.best[index] = Some(found),
             Err(message) => study.failure = Some(message),
         }))
+    }
+}
+
+impl Asked for LoadStudy {
+    type Question = (Scenario, Load);
+
+    fn asked(&self) -> &Self::Question {
+        &self.asked
     }
 }
 
@@ -354,7 +350,7 @@ impl Study for LoadStudy {
             return None;
         }
         if !std::mem::replace(&mut self.forced_handed, true) {
-            let (scenario, resistances) = (self.scenario.clone(), self.resistances.clone());
+            let (scenario, resistances) = (self.asked.0.clone(), self.resistances.clone());
             let piece = Forced { scenario, resistances };
             return Some(Order::new(piece, |study: &mut Self, found| match found {
                 Ok(points) => study.forced = Some(points),

@@ -11,7 +11,7 @@ use super::question::Question;
 use crate::model::{Limits, ModelError};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::{Mosaic, Place};
-use crate::scheduler::{Budget, Order, Study, complete_within};
+use crate::scheduler::{Asked, Budget, Order, Study, complete_within};
 use crate::spacing::between;
 
 /// Columns and rows a map may have.
@@ -213,6 +213,14 @@ fn differ(a: &Evaluation, b: &Evaluation) -> bool {
         _ => false,
     };
     !alike || (a.violation == 0.0) != (b.violation == 0.0)
+}
+
+impl Asked for DesignMap {
+    type Question = FindQuestion;
+
+    fn asked(&self) -> &Self::Question {
+        &self.question
+    }
 }
 
 impl Study for DesignMap {

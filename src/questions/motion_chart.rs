@@ -6,7 +6,7 @@ use crate::dynamics::attractors::signature::Signature;
 use crate::model::{ModelError, Units};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::{Mosaic, Place};
-use crate::scheduler::{Order, Study};
+use crate::scheduler::{Asked, Order, Study};
 use crate::spacing::between;
 
 /// Columns and rows a chart may have.
@@ -168,6 +168,14 @@ impl MotionChart {
 /// Whether a cell was followed for its Lyapunov exponent.
 fn is_slow(cell: &Cell) -> bool {
     cell.lasts() && !matches!(cell.motion, Motion::Periodic { .. })
+}
+
+impl Asked for MotionChart {
+    type Question = MotionQuestion;
+
+    fn asked(&self) -> &Self::Question {
+        &self.question
+    }
 }
 
 impl Study for MotionChart {

@@ -5,7 +5,7 @@ use nanoserde::{DeBin, SerBin};
 use super::checks::Span;
 use crate::dynamics::largest_multipliers;
 use crate::scenario::Scenario;
-use crate::scheduler::{Failure, Order, Piece, Study};
+use crate::scheduler::{Asked, Failure, Order, Piece, Study};
 
 /// Columns and rows of the first, coarse picture.
 const FIRST: (usize, usize) = (16, 24);
@@ -56,9 +56,8 @@ impl Piece for Columns {
 /// A chart being computed: first every sixteenth column coarsely, then every column, those beside a change first.
 #[derive(Debug, Clone)]
 pub struct MultiplierChart {
-    scenario: Scenario,
-    omega: Span,
-    beta: Span,
+    /// Whose multipliers, at which frequencies (the columns) and at which amplitudes (the rows).
+    asked: (Scenario, Span, Span),
     /// Rows of the coarse picture.
     coarse_rows: Vec<usize>,
     coarse: Vec<Option<Column>>,
@@ -77,9 +76,7 @@ impl MultiplierChart {
         let (columns, rows) = (omega.count, beta.count);
         let coarse_rows = (0..rows).step_by((rows / FIRST.1).max(1)).collect();
         Self {
-            scenario,
-            omega,
-            beta,
+            asked: (scenario, omega, beta),
             coarse_rows,
             coarse: vec![None; columns],
             fine: vec![None; columns],
@@ -89,11 +86,6 @@ impl MultiplierChart {
             failure: None,
             version: 0,
         }
-    }
-
-    /// Whose multipliers, at which frequencies (the columns) and at which amplitudes (the rows).
-    pub fn question(&self) -> (&Scenario, Span, Span) {
-        (&self.scenario, self.omega, self.beta)
     }
 
     /// Grows with every change, so that a picture knows when it is old.
@@ -136,11 +128,11 @@ impl MultiplierChart {
             };
             Column { modulus: pick(|column| &column.modulus), argument: pick(|column| &column.argument) }
         };
-        (0..self.beta.count).map(row).collect()
+        (0..self.asked.2.count).map(row).collect()
     }
 
     fn stride(&self) -> usize {
-        (self.omega.count / FIRST.0).max(1)
+        (self.asked.1.count / FIRST.0).max(1)
     }
 
     /// Columns of the coarse picture that nobody has yet.
@@ -169,17 +161,26 @@ impl MultiplierChart {
     }
 }
 
+impl Asked for MultiplierChart {
+    type Question = (Scenario, Span, Span);
+
+    fn asked(&self) -> &Self::Question {
+        &self.asked
+    }
+}
+
 impl Study for MultiplierChart {
     fn next(&mut self) -> Option<Order<Self>> {
         if self.failure.is_some() {
             return None;
         }
+        let (scenario, omega, beta) = self.asked.clone();
         let stride = self.stride();
         let mut columns: Vec<usize> = self.coarse_left().take(4).collect();
         let coarse = !columns.is_empty();
         let mut finer = stride;
         while columns.is_empty() && finer >= 1 {
-            let most = (PER_PIECE / self.beta.count).max(1);
+            let most = (PER_PIECE / beta.count).max(1);
             columns = self.columns_at(finer, most);
             finer = if finer == 1 { 0 } else { finer.div_ceil(2) };
         }
@@ -188,11 +189,11 @@ impl Study for MultiplierChart {
         }
         let handed = if coarse { &mut self.handed_coarse } else { &mut self.handed };
         columns.iter().for_each(|i| handed[*i] = true);
-        let rows: Vec<usize> = if coarse { self.coarse_rows.clone() } else { (0..self.beta.count).collect() };
+        let rows: Vec<usize> = if coarse { self.coarse_rows.clone() } else { (0..beta.count).collect() };
         let piece = Columns {
-            scenario: self.scenario.clone(),
-            omegas: columns.iter().map(|i| self.omega.at(*i)).collect(),
-            betas: rows.into_iter().map(|row| self.beta.at(row)).collect(),
+            scenario,
+            omegas: columns.iter().map(|i| omega.at(*i)).collect(),
+            betas: rows.into_iter().map(|row| beta.at(row)).collect(),
         };
         Some(Order::new(piece, move |chart: &mut Self, found| {
             chart.version += 1;

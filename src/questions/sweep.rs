@@ -11,7 +11,7 @@ use super::response::{Response, ResponseCurve, response};
 use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
 use crate::model::{Parameter, Shaking};
 use crate::scenario::Scenario;
-use crate::scheduler::{Budget, Failure, Order, Piece, Study, complete_within};
+use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
 use crate::spacing::equally_spaced;
 
 /// Numbers of values a sweep may have.
@@ -204,8 +204,8 @@ struct Way {
 /// A sweep being computed, both ways at once: each starts from the scenario's own state.
 #[derive(Debug, Clone)]
 pub struct SweepStudy {
-    scenario: Scenario,
-    question: Sweep,
+    /// With the device, and the state from which the first value starts.
+    asked: (Scenario, Sweep),
     ways: Vec<Way>,
     failure: Option<String>,
 }
@@ -221,17 +221,12 @@ impl SweepStudy {
             begun: Vec::new(),
             under_way: false,
         };
-        Self { ways: directions.iter().map(way).collect(), scenario, question, failure: None }
+        Self { ways: directions.iter().map(way).collect(), asked: (scenario, question), failure: None }
     }
 
     /// What is swept.
     pub fn question(&self) -> &Sweep {
-        &self.question
-    }
-
-    /// The device, and the state from which the first value starts.
-    pub fn scenario(&self) -> &Scenario {
-        &self.scenario
+        &self.asked.1
     }
 
     /// The points so far, in the order in which they were visited.
@@ -252,6 +247,14 @@ impl SweepStudy {
     }
 }
 
+impl Asked for SweepStudy {
+    type Question = (Scenario, Sweep);
+
+    fn asked(&self) -> &Self::Question {
+        &self.asked
+    }
+}
+
 impl Study for SweepStudy {
     fn next(&mut self) -> Option<Order<Self>> {
         if self.failure.is_some() {
@@ -263,13 +266,14 @@ impl Study for SweepStudy {
         way.under_way = true;
         way.begun.push((way.points.len(), way.state.clone()));
         let values = way.values.iter().skip(way.points.len()).take(PER_PIECE).copied().collect();
+        let (scenario, question) = &self.asked;
         let stretch = Stretch {
-            scenario: self.scenario.clone(),
-            parameter: self.question.parameter,
-            shaking: self.question.shaking,
+            scenario: scenario.clone(),
+            parameter: question.parameter,
+            shaking: question.shaking,
             values,
             state: way.state.clone(),
-            dwell: self.question.dwell(),
+            dwell: question.dwell(),
         };
         Some(Order::new(stretch, move |study: &mut Self, found| match found {
             Ok(found) => {

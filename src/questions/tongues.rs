@@ -5,7 +5,7 @@ use nanoserde::{DeBin, SerBin};
 use crate::dynamics::bifurcations::tongue::{Tongue, Window};
 use crate::dynamics::trace_tongue;
 use crate::scenario::Scenario;
-use crate::scheduler::{Failure, Order, Piece, Study};
+use crate::scheduler::{Asked, Failure, Order, Piece, Study};
 use crate::theory::Resonance;
 
 /// The exact border of a tongue; excitation and start of the scenario play no role.
@@ -45,8 +45,8 @@ pub enum Traced {
 /// The tongues of one device.
 #[derive(Debug, Clone)]
 pub struct TongueStudy {
-    scenario: Scenario,
-    window: Window,
+    /// The device, and how far they are followed.
+    asked: (Scenario, Window),
     handed: usize,
     traced: [Traced; 3],
 }
@@ -54,17 +54,7 @@ pub struct TongueStudy {
 impl TongueStudy {
     /// The tongues of the device of `scenario` within `window`.
     pub fn new(scenario: Scenario, window: Window) -> Self {
-        Self { scenario, window, handed: 0, traced: Default::default() }
-    }
-
-    /// The device.
-    pub fn scenario(&self) -> &Scenario {
-        &self.scenario
-    }
-
-    /// How far they are followed.
-    pub fn window(&self) -> Window {
-        self.window
+        Self { asked: (scenario, window), handed: 0, traced: Default::default() }
     }
 
     /// What is known of the tongue of `resonance`.
@@ -74,12 +64,21 @@ impl TongueStudy {
     }
 }
 
+impl Asked for TongueStudy {
+    type Question = (Scenario, Window);
+
+    fn asked(&self) -> &Self::Question {
+        &self.asked
+    }
+}
+
 impl Study for TongueStudy {
     fn next(&mut self) -> Option<Order<Self>> {
         let place = self.handed;
         let resonance = *Resonance::ALL.get(place)?;
         self.handed += 1;
-        let border = Border { scenario: self.scenario.clone(), resonance, window: self.window };
+        let (scenario, window) = self.asked.clone();
+        let border = Border { scenario, resonance, window };
         Some(Order::new(border, move |study: &mut Self, found| {
             study.traced[place] = found.map_or_else(Traced::Failed, Traced::Done);
         }))

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::piece::{Finding, Work};
-use super::study::{Study, Take};
+use super::study::{Asked, Study, Take};
 
 /// How many workers may die over a piece before it counts as impossible.
 const MOST_DEATHS: u32 = 2;
@@ -215,17 +215,27 @@ impl Lanes {
         self.lane::<S>().map_or(0, Lane::generation)
     }
 
-    /// Asks a question at once.
-    pub fn ask<S: Study>(&mut self, study: S) {
-        if let Some(lane) = self.lane_mut() {
-            lane.ask(study);
-        }
+    /// Asks a question at once, unless it was the last of its kind; nothing when no study of it can begin.
+    pub fn ask<S: Asked>(&mut self, question: S::Question, begin: impl FnOnce(S::Question) -> Option<S>) {
+        self.put(question, begin, Lane::ask);
     }
 
-    /// Asks it when the present one of its kind is answered: for questions that change faster than they are answered.
-    pub fn offer<S: Study>(&mut self, study: S) {
-        if let Some(lane) = self.lane_mut() {
-            lane.offer(study);
+    /// The same when the present one of its kind is answered: for questions that change faster than they are answered.
+    pub fn offer<S: Asked>(&mut self, question: S::Question, begin: impl FnOnce(S::Question) -> Option<S>) {
+        self.put(question, begin, Lane::offer);
+    }
+
+    fn put<S: Asked>(
+        &mut self,
+        question: S::Question,
+        begin: impl FnOnce(S::Question) -> Option<S>,
+        put: fn(&mut Lane<S>, S),
+    ) {
+        if self.wanted().is_none_or(|wanted: &S| *wanted.asked() != question)
+            && let Some(study) = begin(question)
+            && let Some(lane) = self.lane_mut()
+        {
+            put(lane, study);
         }
     }
 

@@ -39,5 +39,5 @@ pub use budget::Budget;
 pub use lane::{Lane, Lanes};
 pub use piece::{Failure, Finding, Piece, Work};
 pub use single::Single;
-pub use study::{Order, Study, complete, complete_within};
+pub use study::{Asked, Order, Study, complete, complete_within};
 pub use table::Table;

@@ -1,7 +1,7 @@
 //! A question that is one piece of work.
 
 use super::piece::Piece;
-use super::study::{Order, Study};
+use super::study::{Asked, Order, Study};
 
 /// One piece of work and what it found.
 #[derive(Debug, Clone)]
@@ -15,11 +15,6 @@ impl<P: Piece> Single<P> {
     /// A study of this one piece, not yet begun.
     pub fn new(piece: P) -> Self {
         Self { piece, handed: false, found: None }
-    }
-
-    /// The question.
-    pub fn piece(&self) -> &P {
-        &self.piece
     }
 
     /// The finding, or why there is none, once it is known.
@@ -42,5 +37,13 @@ impl<P: Piece + Clone> Study for Single<P> {
 
     fn finished(&self) -> bool {
         self.found.is_some()
+    }
+}
+
+impl<P: Piece + Clone + PartialEq> Asked for Single<P> {
+    type Question = P;
+
+    fn asked(&self) -> &P {
+        &self.piece
     }
 }

@@ -77,6 +77,15 @@ pub trait Study: Sized + 'static {
     }
 }
 
+/// A study that knows what it was asked, so that the same is not asked again.
+pub trait Asked: Study {
+    /// Everything that its answer depends on.
+    type Question: PartialEq;
+
+    /// What it was asked.
+    fn asked(&self) -> &Self::Question;
+}
+
 /// Carries out a whole study: natively on all cores, in the browser one piece after the other.
 pub fn complete(study: &mut (impl Study + Send)) {
     complete_within(study, &Budget::default());

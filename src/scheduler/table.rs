@@ -1,7 +1,7 @@
 //! Pieces of work that do not depend on one another: the rows of a table.
 
 use super::piece::Piece;
-use super::study::{Order, Study};
+use super::study::{Asked, Order, Study};
 
 /// Pieces and what they found, in their order.
 #[derive(Debug, Clone)]
@@ -15,11 +15,6 @@ impl<P: Piece> Table<P> {
     /// A study of these pieces, not yet begun.
     pub fn new(pieces: Vec<P>) -> Self {
         Self { handed: 0, found: pieces.iter().map(|_| None).collect(), pieces }
-    }
-
-    /// The pieces.
-    pub fn pieces(&self) -> &[P] {
-        &self.pieces
     }
 
     /// What each found, or why it did not; `None` until it is known.
@@ -46,5 +41,13 @@ impl<P: Piece + Clone> Study for Table<P> {
 
     fn finished(&self) -> bool {
         self.found.iter().all(Option::is_some)
+    }
+}
+
+impl<P: Piece + Clone + PartialEq> Asked for Table<P> {
+    type Question = Vec<P>;
+
+    fn asked(&self) -> &Vec<P> {
+        &self.pieces
     }
 }

@@ -87,6 +87,7 @@ mod tests {
     use crate::questions::load::BestAt;
     use crate::questions::load::LoadStudy;
     use crate::questions::trust::Entry;
+    use crate::scheduler::Asked as _;
 
     #[test]
     fn a_device_keeps_its_digits_until_a_number_moves_it() {
@@ -119,8 +120,8 @@ mod tests {
             let loads = LoadStudy::new(scenario, load).expect("loads");
             Asked {
                 harvest: questions::harvest(&view, &session),
-                best: questions::best_frequencies(&view, &session, &loads).pieces().to_vec(),
-                trust: questions::trust(&view).pieces().to_vec(),
+                best: questions::best_frequencies(&view, &session, &loads).asked().clone(),
+                trust: questions::trust(&view).asked().clone(),
             }
         };
         let before = questions(false, &|_| {});

@@ -139,7 +139,7 @@ struct Page {
 impl Page {
     fn new(context: &egui::Context) -> Self {
         let search = address::search();
-        let embedded = crate::app::embed::Embed::read(&search).is_some();
+        let embedded = crate::app::embed::Embed::read(&search, &crate::app::panels::parts::parts()).is_some();
         // An embedded page begins with what its address says, and leaves what the whole page remembers alone.
         let keeper = if embedded { storage::Keeper::absent() } else { storage::Keeper::open() };
         let crew = crew(context.clone());

@@ -4,74 +4,38 @@ use super::studies::Studies;
 use crate::app::bench::{Pinned, questions};
 use crate::app::session::Session;
 use crate::app::view::View;
-use crate::app::view::design::Page;
 use crate::questions::design::Operating;
 use crate::questions::design::find::FindQuestion;
 use crate::questions::design::linear::{LinearBest, linear_at_its_best};
 use crate::questions::find::FindStudy;
 use crate::questions::harvest::{Deliver, HarvestStudy};
 use crate::questions::load::LoadStudy;
-use crate::questions::map::DesignMap;
 use crate::scenario::Scenario;
-use crate::scheduler::{Piece, Single, Study as _, Table};
+use crate::scheduler::{Asked as _, Single, Study as _};
 
-/// Columns and rows of a map.
-const MAP: (usize, usize) = (40, 28);
 /// The same search every time.
 const SEED: u64 = 1;
 
 impl Studies {
-    /// Asks for what the tab shows.
-    pub(super) fn follow_bench(&mut self, view: &View, session: &Session) {
-        let scenario = &view.scenario;
+    /// Asks what the device delivers.
+    pub(in crate::app) fn deliver(&mut self, scenario: &Scenario) {
         self.offer(Deliver { scenario: scenario.clone() });
         if self.reference.as_ref().is_none_or(|(of, _)| of != scenario) {
             self.reference = Some((scenario.clone(), linear_at_its_best(scenario).ok()));
         }
-        let page = view.design.page;
-        if matches!(page, Page::Harvest | Page::Measured) {
-            let (scenario, harvest, frequency) = questions::harvest(view, session);
-            let same = |study: &HarvestStudy| *study.scenario() == scenario && *study.question() == harvest;
-            if !self.lanes.study().is_some_and(same)
-                && let Ok(study) = HarvestStudy::new(scenario, harvest, frequency)
-            {
-                self.lanes.ask(study);
-            }
-        }
-        if matches!(page, Page::Harvest | Page::Load) {
-            let (scenario, load) = questions::load(view);
-            let same = |study: &LoadStudy| *study.scenario() == scenario && *study.question() == load;
-            if !self.lanes.study().is_some_and(same)
-                && let Ok(study) = LoadStudy::new(scenario, load)
-            {
-                self.lanes.ask(study);
-            }
-        }
-        match page {
-            Page::Load => {
-                if let Some(loads) = self.lanes.study() {
-                    self.ask_table(questions::best_frequencies(view, session, loads));
-                }
-            }
-            Page::Materials => self.ask_table(questions::materials(view)),
-            Page::Trust => self.ask_table(questions::trust(view)),
-            Page::Search => {
-                let question = questions::map(view, session);
-                if self.lanes.study().is_none_or(|map: &DesignMap| *map.question() != question)
-                    && let Ok(map) = DesignMap::new(question, MAP)
-                {
-                    self.lanes.ask(map);
-                }
-            }
-            Page::Harvest | Page::Measured => {}
-        }
     }
 
-    /// Asks for a table, unless it is the present one.
-    fn ask_table<P: Piece + Clone + PartialEq>(&mut self, table: Table<P>) {
-        if self.lanes.study().is_none_or(|present: &Table<P>| present.pieces() != table.pieces()) {
-            self.lanes.ask(table);
-        }
+    /// Asks for the curves over frequency.
+    pub(in crate::app) fn harvest(&mut self, view: &View, session: &Session) {
+        let (scenario, question, frequency) = questions::harvest(view, session);
+        self.lanes.ask((scenario, question), |(scenario, question)| {
+            HarvestStudy::new(scenario, question, frequency).ok()
+        });
+    }
+
+    /// Asks for the curves over the load.
+    pub(in crate::app) fn load(&mut self, view: &View) {
+        self.lanes.ask(questions::load(view), |(scenario, question)| LoadStudy::new(scenario, question).ok());
     }
 
     /// Begins the search for a design, or ends it: one under way keeps its best so far, a finished one is put away.
@@ -106,7 +70,7 @@ impl Studies {
     /// What the device delivers, or why nothing is known, and whether it is the device in view.
     pub(in crate::app) fn operating(&self, scenario: &Scenario) -> Option<(Result<&Operating, &str>, bool)> {
         let study: &Single<Deliver> = self.lanes.finished()?;
-        Some((study.found()?, study.piece().scenario == *scenario))
+        Some((study.found()?, study.asked().scenario == *scenario))
     }
 
     /// What is known of `scenario`, to be kept.

@@ -19,7 +19,7 @@ use crate::model::limits::Standing;
 use crate::model::{Demand, Dimension, ForceLaw};
 use crate::questions::harvest::HarvestStudy;
 use crate::scenario::Scenario;
-use crate::scheduler::Study as _;
+use crate::scheduler::{Asked as _, Study as _};
 
 /// Height over width of a plot in a report.
 const REPORT_ASPECT: f64 = 0.42;
@@ -54,10 +54,8 @@ impl App {
         plots.iter_mut().flatten().for_each(|figure| figure.aspect = REPORT_ASPECT);
         let harvest = crew.studies.lanes.study::<HarvestStudy>();
         let (scenario, question, _) = bench::questions::harvest(&self.view, &self.session);
-        let same = |study: &&HarvestStudy| {
-            study.finished() && *study.scenario() == scenario && *study.question() == question
-        };
-        if harvest.as_ref().is_some_and(same) {
+        let asked = (scenario, question);
+        if harvest.is_some_and(|study| study.finished() && *study.asked() == asked) {
             let mut view = View { tab: Tab::Design, enlarged: Some(Panel::Harvest), ..self.view.clone() };
             view.design.page = Page::Harvest;
             let mut figures = self.figures(&view, None);

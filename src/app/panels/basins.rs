@@ -4,14 +4,17 @@ use egui::{Color32, Id, RichText, Ui};
 use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
-use crate::app::colours;
+use super::spec::{Place, Spec};
+use crate::app::crew::Studies;
 use crate::app::panels::computing;
-use crate::app::text::{fill, motion_in_words, tr};
+use crate::app::session::Session;
+use crate::app::text::{fill, marked, motion_in_words, tr};
 use crate::app::theme::{self, Tokens};
-use crate::app::view::Panel;
+use crate::app::view::{Tab, View};
 use crate::app::widgets::number::{round_significant, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{attractor_row, draw_raster, raster, recorder};
+use crate::app::{colours, questions};
 use crate::dynamics::attractors::motion::Motion;
 use crate::questions::basin::{Attractor, BasinStudy};
 use crate::scenario::Scenario;
@@ -23,26 +26,37 @@ const LISTED: usize = 6;
 const BESIDE: f32 = 400.0;
 const LIST_WIDTH: f32 = 190.0;
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.lanes.study::<BasinStudy>() {
+/// The basins.
+pub(super) const PANEL: Spec =
+    Spec::new(Place::Tab(Tab::Stability), |_| tr("Basins of attraction"), contents)
+        .hint(hint)
+        .asking(ask)
+        .embedded("basins", marked("Basins of attraction"));
+
+fn hint(context: &Context<'_>) -> String {
+    match context.studies.lanes.study::<BasinStudy>() {
         Some(basin) if !basin.finished() => computing(basin.progress()),
         _ => tr("click to start there").to_owned(),
-    };
-    context.plot_card(ui, Panel::Basins, tr("Basins of attraction"), &hint, |context, ui| {
-        let Some(basin) = context.studies.lanes.study::<BasinStudy>() else { return };
-        let attractors = basin.attractors();
-        if ui.available_width() < BESIDE {
-            list(context, ui, &attractors);
-            plot(context, ui, basin, &attractors);
-            return;
-        }
-        let area = ui.available_rect_before_wrap();
-        let (left, right) = area.split_left_right_at_x(area.right() - LIST_WIDTH);
-        ui.scope_builder(egui::UiBuilder::new().max_rect(left), |ui| plot(context, ui, basin, &attractors));
-        let right = right.shrink2(egui::vec2(8.0, 0.0));
-        ui.scope_builder(egui::UiBuilder::new().max_rect(right), |ui| list(context, ui, &attractors));
-    });
+    }
+}
+
+fn ask(view: &View, _: &Session, studies: &mut Studies) {
+    studies.lanes.ask(questions::basin(view), |(scenario, basin)| BasinStudy::new(scenario, basin).ok());
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(basin) = context.studies.lanes.study::<BasinStudy>() else { return };
+    let attractors = basin.attractors();
+    if ui.available_width() < BESIDE {
+        list(context, ui, &attractors);
+        plot(context, ui, basin, &attractors);
+        return;
+    }
+    let area = ui.available_rect_before_wrap();
+    let (left, right) = area.split_left_right_at_x(area.right() - LIST_WIDTH);
+    ui.scope_builder(egui::UiBuilder::new().max_rect(left), |ui| plot(context, ui, basin, &attractors));
+    let right = right.shrink2(egui::vec2(8.0, 0.0));
+    ui.scope_builder(egui::UiBuilder::new().max_rect(right), |ui| list(context, ui, &attractors));
 }
 
 /// The colours of attractors: that of its class, as in the other charts, for the first found of each; the others of a

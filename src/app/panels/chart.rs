@@ -5,13 +5,17 @@ use egui_plot::PlotBounds;
 
 use super::Context;
 use super::design::safety::Safety;
+use super::spec::{Place, Spec};
 use super::stability_map::{self, drag_point};
 use crate::app::command::Command;
+use crate::app::crew::Studies;
 use crate::app::map::{Boundaries, ceiling};
 use crate::app::panels::computing;
-use crate::app::text::{motion_in_words, tr};
+use crate::app::questions;
+use crate::app::session::Session;
+use crate::app::text::{marked, motion_in_words, tr};
 use crate::app::theme::{self, Tokens};
-use crate::app::view::{Layer, Panel};
+use crate::app::view::{Layer, Tab, View};
 use crate::app::widgets::number::{self, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{
@@ -20,27 +24,45 @@ use crate::app::widgets::{
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
 use crate::dynamics::attractors::motion::{Cell, Motion};
+use crate::questions::chart::Quantity;
 use crate::questions::motion_chart::MotionChart;
 use crate::questions::multiplier_chart::MultiplierChart;
-use crate::scheduler::Study as _;
+use crate::scheduler::{Asked as _, Study as _};
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+/// The chart.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Stability), |_| tr("Stability chart"), contents)
+    .hint(hint)
+    .asking(ask)
+    .embedded("chart", marked("Stability chart"));
+
+fn hint(context: &Context<'_>) -> String {
     let progress = match context.view.layer {
         Layer::Multiplier => {
             context.studies.lanes.study::<MultiplierChart>().map(|chart| (chart.progress(), chart.finished()))
         }
         _ => context.studies.lanes.study::<MotionChart>().map(|chart| (chart.progress(), chart.finished())),
     };
-    let hint = match progress {
+    match progress {
         Some((done, false)) => computing(done),
         _ => tr("drag or click to move").to_owned(),
-    };
-    context.plot_card(ui, Panel::Chart, tr("Stability chart"), &hint, |context, ui| {
-        let Some(boundaries) = &context.session.boundaries else { return };
-        header(context, ui);
-        plot(context, ui, boundaries);
-    });
+    }
+}
+
+fn ask(view: &View, session: &Session, studies: &mut Studies) {
+    let Some(boundaries) = &session.boundaries else { return };
+    let (scenario, chart) = questions::chart(view, boundaries);
+    if chart.quantity == Quantity::Multiplier {
+        let asked = (scenario, chart.omega, chart.beta);
+        studies.lanes.ask(asked, |(scenario, omega, beta)| Some(MultiplierChart::new(scenario, omega, beta)));
+    } else {
+        studies.lanes.ask(chart.plane(scenario), |plane| Some(MotionChart::new(plane)));
+    }
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(boundaries) = &context.session.boundaries else { return };
+    header(context, ui);
+    plot(context, ui, boundaries);
 }
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
@@ -140,7 +162,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
     };
     if layer == Layer::Multiplier {
         let chart = context.studies.lanes.study::<MultiplierChart>()?;
-        let (_, omega, beta) = chart.question();
+        let (_, omega, beta) = chart.asked();
         let revision = revision(chart.version(), context.studies.lanes.generation::<MultiplierChart>());
         let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
         let texture =
@@ -186,7 +208,7 @@ fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f6
                 .shown(column, row)
                 .map(|found| found.map_or_else(String::new, |(modulus, _)| number::exact(modulus)))
         };
-        let (_, omega, beta) = chart.question();
+        let (_, omega, beta) = chart.asked();
         let size = (omega.count, beta.count);
         recorder::cells(plot, tr("largest multiplier of the forced motion"), size, ranges, &value);
         return;

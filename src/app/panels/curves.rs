@@ -3,10 +3,13 @@
 use egui::Ui;
 use egui_plot::{PlotBounds, PlotPoint};
 
+use super::spec::{Place, Spec};
 use super::{Context, parameter};
 use crate::app::command::Command;
-use crate::app::text::{fill, reworded, tr};
-use crate::app::view::Panel;
+use crate::app::crew::Studies;
+use crate::app::session::Session;
+use crate::app::text::{fill, marked, reworded, tr};
+use crate::app::view::{Tab, View};
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips_after, legend};
@@ -17,9 +20,14 @@ use crate::model::Parameter;
 use crate::questions::curves::{CurvesStudy, PARAMETERS};
 use crate::scheduler::Study as _;
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.lanes.study::<CurvesStudy>() {
+/// The curves.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Stability), |_| tr("Bifurcation curves"), contents)
+    .hint(hint)
+    .asking(ask)
+    .embedded("curves", marked("Bifurcation curves"));
+
+fn hint(context: &Context<'_>) -> String {
+    match context.studies.lanes.study::<CurvesStudy>() {
         Some(study) if !study.finished() => {
             fill("tracing, {count} so far", &[("count", &study.curves().len())])
         }
@@ -27,11 +35,18 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Some(study) if study.curves().len() == 1 => tr("1 curve").to_owned(),
         Some(study) => fill("{count} curves", &[("count", &study.curves().len())]),
         None => String::new(),
-    };
-    context.plot_card(ui, Panel::Curves, tr("Bifurcation curves"), &hint, |context, ui| {
-        header(context, ui);
-        plot(context, ui);
-    });
+    }
+}
+
+fn ask(view: &View, session: &Session, studies: &mut Studies) {
+    if let Some(question) = questions::curves(view, session) {
+        studies.lanes.ask(question, |question| Some(CurvesStudy::new(question)));
+    }
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    header(context, ui);
+    plot(context, ui);
 }
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {

@@ -2,10 +2,10 @@
 
 use egui::{Align, Layout, RichText, Ui, vec2};
 
-use super::{Context, beam, design, device, grid, plots, structure, verdict};
+use super::{Context, beam, device, grid, plots, structure, verdict};
 use crate::app::embed::{Control, Embed, Part};
 use crate::app::text::{fill, tr};
-use crate::app::view::{Panel, View};
+use crate::app::view::View;
 use crate::app::{keyboard, link, theme};
 
 /// Space around everything and between panels, points.
@@ -88,9 +88,6 @@ fn columns(count: usize, room: egui::Vec2) -> usize {
 
 fn draw(context: &mut Context<'_>, ui: &mut Ui, part: Part) {
     match part {
-        Part::Plot(panel @ (Panel::Harvest | Panel::Load | Panel::MagnetForce)) => {
-            design::plot_alone(context, ui, panel)
-        }
         Part::Plot(panel) => plots::draw(context, ui, panel),
         // The card's own title and margin take the rest.
         Part::Beam => beam::show_in(context, ui, ui.available_height() - BEAM_FRAME),

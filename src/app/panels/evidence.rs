@@ -3,17 +3,21 @@
 use egui::{RichText, Ui};
 
 use super::Context;
-use crate::app::text::{reworded, tr};
-use crate::app::view::Panel;
+use super::spec::{Place, Spec};
+use crate::app::text::{marked, reworded, tr};
+use crate::app::view::Tab;
 use crate::app::{fonts, theme};
 use crate::dynamics::attractors::evidence::{Evidence, EvidenceSource};
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = tr("multipliers, recurrence, exponent, spectrum");
-    context.plot_card(ui, Panel::Evidence, tr("What the verdict rests on"), hint, |context, ui| {
-        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| list(context, ui));
-    });
+/// The evidence, in words.
+pub(super) const PANEL: Spec =
+    Spec::new(Place::Tab(Tab::Stability), |_| tr("What the verdict rests on"), contents)
+        .hint(|_| tr("multipliers, recurrence, exponent, spectrum").to_owned())
+        .embedded("evidence", marked("Evidence"))
+        .without_plot();
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| list(context, ui));
 }
 
 fn list(context: &mut Context<'_>, ui: &mut Ui) {

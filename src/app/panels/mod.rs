@@ -1,39 +1,30 @@
 //! The panels, one file each. They read the view and the session and push commands.
 
-pub(super) mod basins;
 pub(super) mod beam;
-pub(super) mod chart;
 pub(super) mod controls;
-pub(super) mod curves;
 pub(super) mod design;
 pub(super) mod device;
 pub(super) mod embedded;
-pub(super) mod evidence;
 pub(super) mod explore;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
 mod frequency;
 mod grid;
 pub(super) mod lessons;
+pub(super) mod list;
 pub(super) mod live;
-pub(super) mod multipliers;
-pub(super) mod orbit_diagram;
 pub(super) mod paper;
 mod parameter;
+pub(super) mod parts;
 mod phase_plane;
-pub(super) mod phase_portrait;
 mod plots;
-pub(super) mod poincare_map;
-pub(super) mod response;
 mod share;
 pub(super) mod shortcuts;
-pub(super) mod spectrum;
+pub(super) mod spec;
 pub(super) mod stability;
-pub(super) mod stability_map;
 pub(super) mod structure;
 pub(super) mod sweep;
 pub(super) mod tables;
-pub(super) mod time_history;
 pub(super) mod top_bar;
 pub(super) mod verdict;
 
@@ -44,10 +35,16 @@ use super::embed::Embed;
 use super::lessons::Course;
 use super::live::Live;
 use super::session::{Session, Shown, Status};
-use super::view::{Panel, Tab, View};
-use super::widgets::{Card, Icon};
+use super::view::{View, panels};
 use crate::app::text::{fill, tr};
 use crate::export::Format;
+
+macro_rules! files {
+    ($($name:ident $file:ident)*) => {
+        $(pub(super) mod $file;)*
+    };
+}
+panels!(files);
 
 /// What a panel may look at, and where it leaves its wishes.
 pub(super) struct Context<'a> {
@@ -95,34 +92,6 @@ impl<'a> Context<'a> {
     pub(super) fn export(&mut self, title: &str, format: Option<Format>) {
         if let Some(format) = format {
             self.commands.push(Command::Export(title.to_owned(), format));
-        }
-    }
-
-    /// A card for one of the plots of a tab, with a button that enlarges it.
-    pub(super) fn plot_card(
-        &mut self,
-        ui: &mut egui::Ui,
-        panel: Panel,
-        title: &str,
-        hint: &str,
-        contents: impl FnOnce(&mut Self, &mut egui::Ui),
-    ) {
-        let large = self.view.enlarged == Some(panel);
-        let (icon, label) =
-            if large { (Icon::Shrink, tr("Show all plots")) } else { (Icon::Enlarge, tr("Enlarge")) };
-        let card = Card::new(title).hint(hint);
-        // The evidence is text, the beam a picture.
-        let card = if matches!(panel, Panel::Evidence | Panel::LiveBeam) { card } else { card.exports() };
-        let card = card.button(icon, label);
-        let shown = card.show(ui, |ui| {
-            if self.is_stale() && self.view.tab != Tab::Live {
-                ui.multiply_opacity(0.55);
-            }
-            contents(self, ui);
-        });
-        self.export(title, shown.export);
-        if shown.pressed.is_some() {
-            self.commands.push(Command::Enlarge((!large).then_some(panel)));
         }
     }
 }

@@ -6,9 +6,10 @@ use egui::Ui;
 use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
-use crate::app::text::{fill, tr};
+use super::spec::{Place, Spec};
+use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
-use crate::app::view::Panel;
+use crate::app::view::Tab;
 use crate::app::widgets::number::significant;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
@@ -18,11 +19,10 @@ use crate::spacing::equally_spaced;
 /// Points of the circle.
 const CIRCLE: usize = 181;
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = tr("inside the circle: stable");
-    context.plot_card(ui, Panel::Multipliers, tr("Floquet multipliers"), hint, plot);
-}
+/// The multipliers.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Stability), |_| tr("Floquet multipliers"), plot)
+    .hint(|_| tr("inside the circle: stable").to_owned())
+    .embedded("multipliers", marked("Multipliers"));
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let Some((found, current)) = context.studies.inspection(&context.view.scenario) else { return };

@@ -3,11 +3,15 @@
 use egui::{RichText, Ui};
 use egui_plot::{PlotPoint, VLine};
 
+use super::spec::{Place, Spec};
 use super::{Context, parameter};
+use crate::app::crew::Studies;
 use crate::app::panels::computing;
-use crate::app::text::{fill, tr};
+use crate::app::questions;
+use crate::app::session::Session;
+use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
-use crate::app::view::Panel;
+use crate::app::view::{Tab, View};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Motion;
@@ -15,13 +19,24 @@ use crate::dynamics::attractors::sweep::SweepPoint;
 use crate::questions::sweep::{Direction, SweepStudy};
 use crate::scheduler::Study as _;
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.lanes.study::<SweepStudy>() {
+/// The diagram.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Sweep), |_| tr("Orbit diagram"), diagram)
+    .hint(hint)
+    .asking(ask)
+    .embedded("orbit", marked("Orbit diagram"));
+
+fn hint(context: &Context<'_>) -> String {
+    match context.studies.lanes.study::<SweepStudy>() {
         Some(sweep) if !sweep.finished() => computing(sweep.progress()),
         _ => tr("click to go there").to_owned(),
-    };
-    context.plot_card(ui, Panel::OrbitDiagram, tr("Orbit diagram"), &hint, diagram);
+    }
+}
+
+/// Asks for the sweep in view.
+pub(super) fn ask(view: &View, session: &Session, studies: &mut Studies) {
+    studies.lanes.ask(questions::sweep(view, session), |(scenario, sweep)| {
+        Some(SweepStudy::new(scenario, sweep, &[Direction::Up, Direction::Down]))
+    });
 }
 
 fn diagram(context: &mut Context<'_>, ui: &mut Ui) {

@@ -2,16 +2,17 @@
 
 use egui::Ui;
 
+use super::spec::{Place, Spec};
 use super::{Context, phase_plane};
-use crate::app::text::tr;
-use crate::app::view::Panel;
+use crate::app::text::{marked, tr};
+use crate::app::view::Tab;
 use crate::app::widgets::{Series, legend, plot_style};
 use crate::model::state_dimension;
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    context.plot_card(ui, Panel::PhasePortrait, tr("Phase portrait"), tr("click to start there"), portrait);
-}
+/// The portrait.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Explore), |_| tr("Phase portrait"), portrait)
+    .hint(|_| tr("click to start there").to_owned())
+    .embedded("phase", marked("Phase portrait"));
 
 fn portrait(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(shown) = context.shown() else { return };

@@ -2,20 +2,22 @@
 
 use egui::Ui;
 
+use super::spec::{Place, Spec};
 use super::{Context, phase_plane};
-use crate::app::text::{fill, tr};
-use crate::app::view::Panel;
+use crate::app::text::{fill, marked, tr};
+use crate::app::view::Tab;
 use crate::app::widgets::{Series, legend, plot_style};
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.shown() {
-        Some(shown) => {
-            fill("t = 2πk/ω · {count} points, grey: earlier", &[("count", &shown.curves.strobe.len())])
-        }
-        None => String::new(),
-    };
-    context.plot_card(ui, Panel::PoincareMap, tr("Poincaré map"), &hint, map);
+/// The map.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Explore), |_| tr("Poincaré map"), map)
+    .hint(hint)
+    .embedded("poincare", marked("Poincaré map"));
+
+fn hint(context: &Context<'_>) -> String {
+    let count = context.shown().map(|shown| shown.curves.strobe.len());
+    count.map_or_else(String::new, |count| {
+        fill("t = 2πk/ω · {count} points, grey: earlier", &[("count", &count)])
+    })
 }
 
 fn map(context: &mut Context<'_>, ui: &mut Ui) {

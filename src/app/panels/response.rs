@@ -4,11 +4,14 @@ use egui::Ui;
 use egui_plot::{PlotPoint, VLine};
 
 use super::orbit_diagram::settled;
+use super::spec::{Place, Spec};
 use super::{Context, orbit_diagram, parameter};
-use crate::app::crew::Followed;
-use crate::app::text::{fill, tr};
+use crate::app::crew::{Followed, Studies};
+use crate::app::questions;
+use crate::app::session::Session;
+use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
-use crate::app::view::{Output, Panel};
+use crate::app::view::{Output, Tab, View};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Instability;
@@ -18,13 +21,23 @@ use crate::questions::response::{ResponseCurve, ResponsePoint};
 use crate::questions::sweep::{Direction, SweepStudy};
 use crate::scenario::Scenario;
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.response() {
-        Some(Followed { newest: true, .. }) => tr("solid: stable, dashed: unstable"),
-        _ => tr("following the branches"),
-    };
-    context.plot_card(ui, Panel::Response, tr("Response curves"), hint, curves);
+/// The curves.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Sweep), |_| tr("Response curves"), curves)
+    .hint(hint)
+    .asking(ask)
+    .embedded("response", marked("Response curves"));
+
+fn hint(context: &Context<'_>) -> String {
+    match context.studies.response() {
+        Some(Followed { newest: true, .. }) => tr("solid: stable, dashed: unstable").to_owned(),
+        _ => tr("following the branches").to_owned(),
+    }
+}
+
+fn ask(view: &View, session: &Session, studies: &mut Studies) {
+    orbit_diagram::ask(view, session, studies);
+    let (scenario, sweep) = questions::sweep(view, session);
+    studies.offer(sweep.response(&scenario));
 }
 
 /// What the vertical axis measures, from the numbers of a point.

@@ -3,8 +3,9 @@
 use egui::{Color32, Id, Modal, Popup, PopupCloseBehavior, RichText, TextEdit, Ui};
 
 use super::Context;
+use super::parts::{parts, usual};
 use crate::app::command::Command;
-use crate::app::embed::{self, PARTS};
+use crate::app::embed;
 use crate::app::exporting::request;
 use crate::app::text::{fill, tr};
 use crate::app::view::View;
@@ -93,7 +94,7 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
         let embedding = memory.parts.is_some();
         let button = ui.add(egui::Button::new(tr("Embed")).selected(embedding));
         if button.on_hover_text(tr("Show plots of this view in slides or on a page of your own")).clicked() {
-            let usual = || embed::usual(context.view).iter().fold(0, |bits, part| bits | 1 << part);
+            let usual = || usual(context.view).iter().fold(0, |bits, part| bits | 1 << part);
             memory.parts = (!embedding).then(usual);
         }
     });
@@ -136,9 +137,10 @@ fn popover(context: &mut Context<'_>, ui: &mut Ui, memory: &mut Memory) {
 }
 
 /// What of this view a frame is to show, and the button that copies it.
-fn choose_parts(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory, mut parts: u32, link: &str) {
+fn choose_parts(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory, mut chosen: u32, link: &str) {
+    let parts = parts();
     // In one column where words would have to be broken.
-    let widest = PARTS.iter().map(|(_, _, name)| {
+    let widest = parts.iter().map(|(_, _, name)| {
         let galley = egui::WidgetText::from(tr(name)).into_galley(
             ui,
             Some(egui::TextWrapMode::Extend),
@@ -151,23 +153,24 @@ fn choose_parts(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory, mut par
     let width = widest.fold(0.0, f32::max) + mark + ui.spacing().item_spacing.x;
     let count = if 2.0 * width <= ui.available_width() { 2 } else { 1 };
     ui.columns(count, |columns| {
-        for (i, (_, _, name)) in PARTS.iter().enumerate() {
-            let mut chosen = parts >> i & 1 == 1;
-            if columns[i * count / PARTS.len()].checkbox(&mut chosen, tr(name)).changed() {
-                parts ^= 1 << i;
+        for (i, (_, _, name)) in parts.iter().enumerate() {
+            let mut shown = chosen >> i & 1 == 1;
+            if columns[i * count / parts.len()].checkbox(&mut shown, tr(name)).changed() {
+                chosen ^= 1 << i;
             }
         }
     });
-    memory.parts = Some(parts);
+    memory.parts = Some(chosen);
     ui.checkbox(&mut memory.bare, tr("without sliders"));
     let now = ui.input(|input| input.time);
     let copied = memory.embedded.is_some_and(|then| now - then < COPIED);
     let button = egui::Button::new(if copied { tr("Copied") } else { tr("Copy the frame as HTML") });
-    if ui.add_enabled(parts != 0, button).clicked() {
-        let chosen: Vec<usize> = (0..PARTS.len()).filter(|i| parts >> i & 1 == 1).collect();
+    if ui.add_enabled(chosen != 0, button).clicked() {
+        let names: Vec<&str> =
+            parts.iter().enumerate().filter(|(i, _)| chosen >> i & 1 == 1).map(|(_, part)| part.1).collect();
         let controls: &[&str] = if memory.bare { &[] } else { &["alpha", "beta", "omega"] };
         let fragment = link.split_once('#').map_or("", |(_, fragment)| fragment);
-        ui.ctx().copy_text(embed::snippet(context.address, fragment, &chosen, controls));
+        ui.ctx().copy_text(embed::snippet(context.address, fragment, &names, controls));
         ui.ctx().request_repaint_after_secs(COPIED as f32 + 0.1);
         memory.embedded = Some(now);
     }

@@ -4,8 +4,9 @@ use egui::Ui;
 use egui_plot::PlotPoint;
 
 use super::Context;
-use crate::app::text::tr;
-use crate::app::view::Panel;
+use super::spec::{Place, Spec};
+use crate::app::text::{marked, tr};
+use crate::app::view::Tab;
 use crate::app::widgets::plot_style::{self, Axis, to_log};
 use crate::app::widgets::{Series, legend};
 
@@ -15,10 +16,10 @@ const DECADES: f64 = 5.0;
 /// Names keep this distance from each other, as fractions of the width shown.
 const APART: f64 = 0.06;
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    context.plot_card(ui, Panel::Spectrum, tr("Spectrum"), tr("of the motion reached"), plot);
-}
+/// The spectrum.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Stability), |_| tr("Spectrum"), plot)
+    .hint(|_| tr("of the motion reached").to_owned())
+    .embedded("spectrum", marked("Spectrum"));
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let Some((found, current)) = context.studies.inspection(&context.view.scenario) else { return };

@@ -4,10 +4,11 @@ use egui::Ui;
 use egui_plot::{PlotBounds, PlotPoint, PlotResponse};
 
 use super::Context;
+use super::spec::{Place, Spec};
 use crate::app::command::Command;
 use crate::app::map::{Boundaries, ceiling};
-use crate::app::text::tr;
-use crate::app::view::{MapWindow, Panel};
+use crate::app::text::{marked, tr};
+use crate::app::view::{MapWindow, Tab, View};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
 use crate::model::Parameter;
@@ -17,24 +18,29 @@ use crate::theory::Resonance;
 /// Room that the legend needs to stand beside the choice.
 const LEGEND: f32 = 300.0;
 
-/// Draws the map's card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let title = match context.view.map.resonance() {
+/// The map.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Explore), title, contents)
+    .hint(|_| tr("drag or click to move").to_owned())
+    .embedded("map", marked("Stability map"));
+
+fn title(view: &View) -> &'static str {
+    match view.map.resonance() {
         None => tr("Stability map"),
         Some(Resonance::First) => tr("Stability near 2ω₁"),
         Some(Resonance::Sum) => tr("Stability near ω₁+ω₂"),
         Some(Resonance::Second) => tr("Stability near 2ω₂"),
-    };
-    context.plot_card(ui, Panel::StabilityMap, title, tr("drag or click to move"), |context, ui| {
-        let Some(boundaries) = &context.session.boundaries else { return };
-        if boundaries.tongues.is_empty() {
-            let rect = ui.available_rect_before_wrap();
-            plot_style::no_data(ui, rect, tr("The resonances of the paper need at least two modes."));
-            return;
-        }
-        header(context, ui);
-        map(context, ui, boundaries);
-    });
+    }
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(boundaries) = &context.session.boundaries else { return };
+    if boundaries.tongues.is_empty() {
+        let rect = ui.available_rect_before_wrap();
+        plot_style::no_data(ui, rect, tr("The resonances of the paper need at least two modes."));
+        return;
+    }
+    header(context, ui);
+    map(context, ui, boundaries);
 }
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {

@@ -8,7 +8,7 @@ use super::{Context, grid, plots, verdict};
 use crate::app::command::Command;
 use crate::app::questions;
 use crate::app::text::tr;
-use crate::app::view::{Output, Panel, SweepView};
+use crate::app::view::{Output, SweepView};
 use crate::app::widgets::{Card, ParameterSlider, chips_after};
 use crate::dynamics::attractors::sweep::Dwell;
 use crate::model::Parameter;
@@ -24,16 +24,13 @@ const COUNTS: [(usize, &str); 3] = [(120, "120"), (240, "240"), (600, "600")];
 const WIDE: f32 = 700.0;
 const WIDEST: f32 = 980.0;
 
-/// The plots.
-pub(in crate::app) const PANELS: [Panel; 2] = [Panel::OrbitDiagram, Panel::Response];
-
 /// Draws the tab.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
     ui.add_space(grid::GAP);
     choices(context, ui);
     ui.add_space(grid::GAP);
-    plots::cards(context, ui, &PANELS);
+    plots::cards(context, ui);
 }
 
 fn choices(context: &mut Context<'_>, ui: &mut Ui) {

@@ -4,10 +4,11 @@ use egui::{Rect, Ui, UiBuilder, vec2};
 use egui_plot::PlotPoint;
 
 use super::Context;
+use super::spec::{Place, Spec};
 use crate::app::session::Shown;
-use crate::app::text::tr;
+use crate::app::text::{marked, tr};
 use crate::app::theme;
-use crate::app::view::Panel;
+use crate::app::view::{Panel, Tab};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, recorder};
 use crate::dynamics::Outcome;
@@ -22,24 +23,24 @@ const INSET_LARGE: egui::Vec2 = vec2(0.42, 0.3);
 /// Height of the card's inside below which there is no room for the close view.
 const INSET_FROM: f32 = 190.0;
 
-/// Draws the card.
-pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let title = tr("Time history");
-    let hint = tr("scroll to zoom, double click for all");
-    context.plot_card(ui, Panel::TimeHistory, title, hint, |context, ui| {
-        let Some(shown) = context.shown() else { return };
-        let area = ui.available_rect_before_wrap();
-        let inset = area.height() >= INSET_FROM && shown.run.outcome() == Outcome::Completed;
-        let large = context.view.enlarged == Some(Panel::TimeHistory);
-        let share = if large { INSET_LARGE } else { INSET };
-        let taken = if inset { f64::from(share.y) + 0.09 } else { 0.05 };
-        whole(context, ui, shown, taken);
-        if inset {
-            let size = area.size() * share;
-            let corner = egui::pos2(area.right() - size.x - 4.0, area.top() + 2.0);
-            close_view(ui, Rect::from_min_size(corner, size), shown);
-        }
-    });
+/// The history.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Explore), |_| tr("Time history"), contents)
+    .hint(|_| tr("scroll to zoom, double click for all").to_owned())
+    .embedded("time", marked("Time history"));
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(shown) = context.shown() else { return };
+    let area = ui.available_rect_before_wrap();
+    let inset = area.height() >= INSET_FROM && shown.run.outcome() == Outcome::Completed;
+    let large = context.view.enlarged == Some(Panel::TimeHistory);
+    let share = if large { INSET_LARGE } else { INSET };
+    let taken = if inset { f64::from(share.y) + 0.09 } else { 0.05 };
+    whole(context, ui, shown, taken);
+    if inset {
+        let size = area.size() * share;
+        let corner = egui::pos2(area.right() - size.x - 4.0, area.top() + 2.0);
+        close_view(ui, Rect::from_min_size(corner, size), shown);
+    }
 }
 
 /// The whole run; the share `taken` of the plot's height is kept free at the top for the close view.

@@ -1,4 +1,4 @@
-//! What is in front: the tab, the part of the stability map, what the chart shows, the plot that fills the page.
+//! What is in front: the tab, the part of the stability map, what the chart shows.
 
 use serde::{Deserialize, Serialize};
 
@@ -88,50 +88,4 @@ pub enum Layer {
     Voltage,
     /// Its power.
     Power,
-}
-
-/// The panels that can be made large.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Panel {
-    /// Stability map.
-    StabilityMap,
-    /// Phase portrait.
-    PhasePortrait,
-    /// Poincare map.
-    PoincareMap,
-    /// Time history.
-    TimeHistory,
-    /// Chart of stability or of motions.
-    Chart,
-    /// Multipliers and the unit circle.
-    Multipliers,
-    /// Stroboscopic points of a sweep.
-    OrbitDiagram,
-    /// Response curves.
-    Response,
-    /// Curves of bifurcations.
-    Curves,
-    /// Spectrum of the voltage.
-    Spectrum,
-    /// What the verdict rests on.
-    Evidence,
-    /// Basins of attraction.
-    Basins,
-    /// What the device delivers over frequency.
-    Harvest,
-    /// Power against the load.
-    Load,
-    /// Map over two dimensions of the device.
-    DesignMap,
-    /// The magnets' force over the range of the tip.
-    MagnetForce,
-    /// Measured data.
-    Measured,
-    /// Live trace over time.
-    Oscilloscope,
-    /// Live phase portrait.
-    LivePortrait,
-    /// Live beam.
-    LiveBeam,
 }

@@ -23,7 +23,6 @@ const TABS: [Tab; 7] =
 const MAPS: [MapWindow; 4] = [MapWindow::All, MapWindow::First, MapWindow::Sum, MapWindow::Second];
 const LAYERS: [Layer; 4] = [Layer::Multiplier, Layer::Motion, Layer::Voltage, Layer::Power];
 const OUTPUTS: [Output; 3] = [Output::Voltage, Output::Power, Output::Tip];
-const PANELS: [Panel; 4] = [Panel::StabilityMap, Panel::Chart, Panel::OrbitDiagram, Panel::Basins];
 const SCALINGS: [ElectricalScaling; 2] = ElectricalScaling::ALL;
 
 /// A number anywhere in a range: round, small, an end, or with all its digits.
@@ -168,7 +167,7 @@ pub(super) fn view() -> impl Strategy<Value = View> {
     let languages = option::of(select(&Language::ALL[..]));
     let looks =
         (option::of(any::<bool>()), any::<bool>(), any::<bool>(), option::of(any::<bool>()), languages);
-    let front = (select(&TABS[..]), select(&MAPS[..]), select(&LAYERS[..]), option::of(select(&PANELS[..])));
+    let front = (select(&TABS[..]), select(&MAPS[..]), select(&LAYERS[..]), option::of(select(Panel::ALL)));
     let plane = (0..5_usize, 1..5_usize)
         .prop_map(|(x, step)| [curves::PARAMETERS[x], curves::PARAMETERS[(x + step) % 5]]);
     let lesson = (option::of(select(LessonId::all().collect::<Vec<_>>())), 1..=STEPS);

@@ -27,7 +27,7 @@ const POINTS: usize = 3000;
 const BEFORE_A_RECORD: f64 = 12.0;
 
 /// The computed voltage over the record's time: the end of the run, so much earlier as was chosen, at its end.
-pub(super) fn computed(context: &Context<'_>, file: &File) -> Vec<PlotPoint> {
+pub(in crate::app::panels) fn computed(context: &Context<'_>, file: &File) -> Vec<PlotPoint> {
     let (Some(shown), Some([first, last])) = (context.shown(), ends(file)) else { return Vec::new() };
     let unit = context.view.scenario.units().time;
     let end = shown.run.trajectory.end_time() - file.reading.shift * TAU / shown.scenario.parameters.omega;
@@ -35,7 +35,7 @@ pub(super) fn computed(context: &Context<'_>, file: &File) -> Vec<PlotPoint> {
 }
 
 /// The end of the run in view in seconds and volts, where there is no record yet.
-pub(super) fn run_in_view(context: &Context<'_>) -> Vec<PlotPoint> {
+pub(in crate::app::panels) fn run_in_view(context: &Context<'_>) -> Vec<PlotPoint> {
     let Some(shown) = context.shown() else { return Vec::new() };
     let unit = context.view.scenario.units().time;
     let span = BEFORE_A_RECORD * TAU / shown.scenario.parameters.omega;
@@ -62,7 +62,7 @@ fn voltages(
 }
 
 /// The shift by hand and by itself, and what it leaves.
-pub(super) fn controls(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
+pub(in crate::app::panels) fn controls(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
     let mut reading = file.reading;
     ui.add_space(4.0);
     let slider = ParameterSlider::new(tr("Shift"), "", &mut reading.shift, 0.0..=REACH).compact();

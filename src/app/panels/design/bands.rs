@@ -90,7 +90,12 @@ fn least(view: &View, study: &HarvestStudy) -> f64 {
 }
 
 /// Draws that power into a plot of powers.
-pub(super) fn least_line(plot: &mut PlotUi<'_>, view: &View, study: &HarvestStudy, measure: &Measure) {
+pub(in crate::app::panels) fn least_line(
+    plot: &mut PlotUi<'_>,
+    view: &View,
+    study: &HarvestStudy,
+    measure: &Measure,
+) {
     let at = measure.coordinate(least(view, study));
     let colour = theme::tokens_in(plot.ctx()).ruler;
     plot_style::rule(plot, false, tr("least power that counts"), at, colour, Pen::Dots(1.4, 6.0));

@@ -4,10 +4,10 @@ use egui::{RichText, Ui};
 
 use super::going::{go_to, use_load};
 use super::held::held;
-use super::load::best_frequencies;
 use super::optimum::Optimum;
 use super::safety::Safety;
 use crate::app::bench::questions;
+use crate::app::panels::load::best_frequencies;
 use crate::app::panels::{Context, computing, grid, say_cut};
 use crate::app::text::{fill, tr};
 use crate::app::theme;

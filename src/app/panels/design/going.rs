@@ -5,7 +5,7 @@ use crate::app::panels::Context;
 use crate::app::widgets::number::round_significant;
 
 /// Goes to a frequency (Hz), at the acceleration or the amplitude that is held.
-pub(super) fn go_to(context: &mut Context<'_>, frequency: f64) {
+pub(in crate::app::panels) fn go_to(context: &mut Context<'_>, frequency: f64) {
     let holds = context.view.design.holds_acceleration;
     context.edit(|scenario| {
         let units = scenario.units();
@@ -19,7 +19,7 @@ pub(super) fn go_to(context: &mut Context<'_>, frequency: f64) {
 }
 
 /// Makes `resistance` (ohm) the load.
-pub(super) fn use_load(context: &mut Context<'_>, resistance: f64) {
+pub(in crate::app::panels) fn use_load(context: &mut Context<'_>, resistance: f64) {
     let resistance = round_significant(resistance, 4);
     // After another wish of this frame, if there is one.
     let waiting = context.commands.iter().rev().find_map(|command| match command {

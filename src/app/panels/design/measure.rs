@@ -32,7 +32,7 @@ impl Measure {
     }
 
     /// One value in SI units (mm for the tip), or two where there is a range.
-    pub(super) fn values(&self, point: &HarvestPoint) -> [f64; 2] {
+    pub(in crate::app::panels) fn values(&self, point: &HarvestPoint) -> [f64; 2] {
         values(self.watched, point)
     }
 
@@ -47,7 +47,7 @@ impl Measure {
     }
 
     /// A curve of one side of that range.
-    pub(super) fn line(&self, points: &[HarvestPoint], side: usize) -> Vec<PlotPoint> {
+    pub(in crate::app::panels) fn line(&self, points: &[HarvestPoint], side: usize) -> Vec<PlotPoint> {
         let place =
             |point: &HarvestPoint| PlotPoint::new(point.frequency, self.coordinate(self.values(point)[side]));
         points.iter().map(place).collect()
@@ -55,7 +55,7 @@ impl Measure {
 }
 
 /// One value in SI units (mm for the tip), or two where there is a range.
-pub(super) fn values(watched: Watched, point: &HarvestPoint) -> [f64; 2] {
+pub(in crate::app::panels) fn values(watched: Watched, point: &HarvestPoint) -> [f64; 2] {
     match watched {
         Watched::Power => [point.power; 2],
         Watched::PerG2 => [point.power_per_g2; 2],

@@ -1,21 +1,17 @@
 //! The Design tab: what a device delivers in volts, watts and hertz, within which limits, and what would be better.
 
-mod alignment;
-mod bands;
+pub(super) mod alignment;
+pub(super) mod bands;
 mod beside;
 mod best_load;
-mod force;
-mod going;
-pub(super) mod harvest;
+pub(super) mod going;
 mod held;
 mod limits;
-mod load;
 mod materials;
-mod measure;
-pub(super) mod measured;
-mod optimum;
+pub(super) mod measure;
+pub(super) mod optimum;
 pub(in crate::app) mod safety;
-mod search;
+pub(super) mod search;
 mod summary;
 #[cfg(test)]
 mod tests;
@@ -24,9 +20,11 @@ mod trust;
 use egui::Ui;
 
 use self::beside::beside;
-use super::{Context, grid};
+use super::{Context, grid, measured};
+use crate::app::bench::questions;
+use crate::app::crew::Studies;
 use crate::app::text::tr;
-use crate::app::view::Panel;
+use crate::app::view::View;
 use crate::app::view::design::Page;
 use crate::app::widgets::tabs;
 
@@ -37,21 +35,23 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     summary::show(context, ui);
     ui.add_space(grid::GAP);
     match context.view.design.page {
-        Page::Harvest => beside(context, ui, Panel::Harvest, harvest::show, bands::show),
-        Page::Load => beside(context, ui, Panel::Load, load::show, best_load::cards),
+        Page::Harvest => beside(context, ui, bands::show),
+        Page::Load => beside(context, ui, best_load::cards),
         Page::Materials => materials::show(context, ui),
         Page::Trust => trust::show(context, ui),
-        Page::Search => beside(context, ui, Panel::DesignMap, search::show, search::cards),
-        Page::Measured => beside(context, ui, Panel::Measured, measured::show, measured::cards),
+        Page::Search => beside(context, ui, search::cards),
+        Page::Measured => beside(context, ui, measured::cards),
     }
 }
 
-/// One of its plots where there is nothing else of the tab.
-pub(in crate::app) fn plot_alone(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
-    match panel {
-        Panel::Load => load::show(context, ui),
-        Panel::MagnetForce => force::show(context, ui),
-        _ => harvest::show(context, ui),
+/// Asks for what the tab shows beside its panels.
+pub(in crate::app) fn ask(studies: &mut Studies, view: &View) {
+    studies.deliver(&view.scenario);
+    match view.design.page {
+        Page::Harvest => studies.load(view),
+        Page::Materials => studies.tabulate(questions::materials(view)),
+        Page::Trust => studies.tabulate(questions::trust(view)),
+        Page::Load | Page::Search | Page::Measured => {}
     }
 }
 

@@ -43,7 +43,7 @@ impl Safety {
     }
 
     /// Lowest and highest tip displacement (mm) that keep them.
-    pub(super) fn tip(&self) -> (f64, f64) {
+    pub(in crate::app::panels) fn tip(&self) -> (f64, f64) {
         let Bounds { limits, gap, units } = self.0;
         let most = limits.deflection;
         let lowest = gap.map_or(most, |gap| most.min(limits.gap * gap));
@@ -51,7 +51,12 @@ impl Safety {
     }
 
     /// Draws horizontal limits of a plot of voltages (V), with their names from x = `left`.
-    pub(super) fn voltage_lines(&self, plot: &mut PlotUi<'_>, left: f64, coordinate: &dyn Fn(f64) -> f64) {
+    pub(in crate::app::panels) fn voltage_lines(
+        &self,
+        plot: &mut PlotUi<'_>,
+        left: f64,
+        coordinate: &dyn Fn(f64) -> f64,
+    ) {
         if let Some((low, high)) = self.0.limits.voltage {
             line(plot, [left, coordinate(low)], tr("largest voltage allowed"));
             if high > low {
@@ -61,7 +66,7 @@ impl Safety {
     }
 
     /// Draws those of a plot of tip displacements (mm).
-    pub(super) fn tip_lines(&self, plot: &mut PlotUi<'_>, left: f64) {
+    pub(in crate::app::panels) fn tip_lines(&self, plot: &mut PlotUi<'_>, left: f64) {
         let (low, high) = self.tip();
         let Bounds { limits, gap, .. } = self.0;
         let closes = gap.is_some_and(|gap| limits.gap * gap < limits.deflection);
@@ -81,7 +86,7 @@ fn line(plot: &mut PlotUi<'_>, [left, at]: [f64; 2], name: &str) {
 }
 
 /// Of `points`, those that go beyond the bounds, by what `demand` says of each.
-pub(super) fn beyond<T>(
+pub(in crate::app::panels) fn beyond<T>(
     bounds: Option<Bounds>,
     points: &[T],
     demand: &dyn Fn(&T) -> Asked,

@@ -1,13 +1,11 @@
 //! A map of any result over two dimensions of the device, and the search for the best.
 
-mod digits;
-mod map;
+pub(in crate::app::panels) mod digits;
 mod varied;
 
 use egui::{RichText, Ui};
 
 use self::digits::in_digits;
-pub(super) use self::map::show;
 use crate::app::bench::questions;
 use crate::app::command::Command;
 use crate::app::panels::{Context, device, grid};

@@ -3,12 +3,11 @@
 use egui::{Grid, RichText, Ui};
 
 use super::beside::LEAST_HEIGHT;
-use super::force::{self, NAMES};
-use crate::app::panels::computing;
-use crate::app::panels::{Context, grid};
+use crate::app::panels::magnet_force::NAMES;
+use crate::app::panels::spec::Place;
+use crate::app::panels::{Context, computing, grid, list, plots};
 use crate::app::text::{fill, motion_in_words, reworded, tr};
 use crate::app::theme;
-use crate::app::view::Panel;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips};
 use crate::dynamics::Motion;
@@ -33,21 +32,24 @@ const PHONE: f32 = 360.0;
 /// Draws the page.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let room = ui.available_size();
-    let height = room.y.max(LEAST_HEIGHT);
-    if context.view.enlarged == Some(Panel::MagnetForce) {
-        force::place(context, ui, height);
+    let plots = |context: &mut Context<'_>, ui: &mut Ui, height: f32| {
+        let size = [ui.available_width(), height];
+        plots::column(context, ui, size, LEAST_HEIGHT);
+    };
+    if plots::alone(context, &list::at(Place::of(context.view))).is_some() {
+        plots(context, ui, room.y);
     } else if room.x < TWO_COLUMNS {
         switch(context, ui);
         ui.add_space(grid::GAP);
         convergence(context, ui);
         ui.add_space(grid::GAP);
-        force::place(context, ui, LEAST_HEIGHT);
+        plots(context, ui, LEAST_HEIGHT);
     } else {
         ui.columns(2, |columns| {
             convergence(context, &mut columns[0]);
             columns[0].add_space(grid::GAP);
             switch(context, &mut columns[0]);
-            force::place(context, &mut columns[1], height);
+            plots(context, &mut columns[1], room.y);
         });
     }
 }

@@ -2,33 +2,33 @@
 
 use egui::{Ui, vec2};
 
-use super::{beam, controls, portrait, scope};
+use super::controls;
 use crate::app::panels::grid::{GAP, LEAST_HEIGHT, TWO_COLUMNS, place};
-use crate::app::panels::{Context, plots};
-use crate::app::view::Panel;
+use crate::app::panels::spec::Place;
+use crate::app::panels::{Context, list, plots};
 
-/// Share of the height that the oscilloscope takes.
-const SCOPE: f32 = 0.42;
+/// Share of the height that the first panel takes.
+const FIRST: f32 = 0.42;
 
-/// The cards, widest first.
-pub(in crate::app) const PANELS: [Panel; 3] = [Panel::Oscilloscope, Panel::LivePortrait, Panel::LiveBeam];
-
-/// Draws the tab.
+/// Draws the tab: the first panel as wide as the page, the others below it, side by side.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     controls::show(context, ui);
     ui.add_space(GAP);
-    let width = ui.available_width();
-    if context.view.enlarged.is_some_and(|panel| PANELS.contains(&panel)) || width < TWO_COLUMNS {
-        return plots::cards(context, ui, &PANELS);
-    }
+    let (panels, width) = (list::at(Place::of(context.view)), ui.available_width());
+    let alone = plots::alone(context, &panels).is_some();
+    let Some((first, others)) = panels.split_first().filter(|_| !alone && width >= TWO_COLUMNS) else {
+        return plots::cards(context, ui);
+    };
     let height = ui.available_height() - GAP;
-    let top = (SCOPE * height).floor().max(LEAST_HEIGHT - 30.0);
-    place(ui, width, top, &mut |ui| scope::show(context, ui));
+    let top = (FIRST * height).floor().max(LEAST_HEIGHT - 30.0);
+    place(ui, width, top, &mut |ui| plots::draw(context, ui, *first));
     ui.add_space(GAP - ui.spacing().item_spacing.y);
-    let (bottom, half) = ((height - top).max(LEAST_HEIGHT), (0.5 * (width - GAP)).floor());
+    let count = others.len().max(1) as f32;
+    let (bottom, share) = ((height - top).max(LEAST_HEIGHT), ((width - GAP * (count - 1.0)) / count).floor());
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing = vec2(GAP, 0.0);
-        place(ui, half, bottom, &mut |ui| portrait::show(context, ui));
-        place(ui, half, bottom, &mut |ui| beam::show(context, ui));
+        for panel in others {
+            place(ui, share, bottom, &mut |ui| plots::draw(context, ui, *panel));
+        }
     });
 }

@@ -14,7 +14,7 @@ fn unit(aim: Aim) -> &'static str {
     }
 }
 
-pub(super) fn in_digits(value: f64, aim: Aim) -> String {
+pub(in crate::app::panels) fn in_digits(value: f64, aim: Aim) -> String {
     if aim == Aim::Threshold {
         format!("β = {}", significant(value, 3))
     } else {

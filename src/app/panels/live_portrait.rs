@@ -3,12 +3,13 @@
 use egui::Ui;
 use egui_plot::{PlotBounds, PlotPoint};
 
-use super::traced::Traced;
+use super::Context;
+use super::live::traced::Traced;
+use super::spec::{Place, Spec};
 use crate::app::live::{PORTRAIT, Sample};
-use crate::app::panels::Context;
 use crate::app::text::{fill, tr};
 use crate::app::theme;
-use crate::app::view::Panel;
+use crate::app::view::Tab;
 use crate::app::widgets::{Series, legend, plot_style};
 use crate::export::Pen;
 
@@ -19,12 +20,9 @@ const FAINTEST: f32 = 0.08;
 /// How many of the newest Poincaré points are drawn how strongly; older ones follow.
 const AGES: [(usize, f32); 4] = [(16, 1.0), (120, 0.8), (600, 0.55), (usize::MAX, 0.3)];
 
-/// Draws the card.
-pub(in crate::app::panels) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let count = context.live.trail.strobe.len();
-    let hint = fill("{count} Poincaré points", &[("count", &count)]);
-    context.plot_card(ui, Panel::LivePortrait, tr("Live phase portrait"), &hint, plot);
-}
+/// The portrait.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Live), |_| tr("Live phase portrait"), plot)
+    .hint(|context| fill("{count} Poincaré points", &[("count", &context.live.trail.strobe.len())]));
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(now) = context.live.present() else { return };

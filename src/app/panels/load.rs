@@ -3,14 +3,19 @@
 use egui::{RichText, Ui};
 use egui_plot::PlotPoint;
 
-use super::going::use_load;
-use super::optimum::Optimum;
-use super::safety::{Safety, beyond};
-use crate::app::panels::Context;
+use super::Context;
+use super::design::going::use_load;
+use super::design::optimum::Optimum;
+use super::design::safety::{Safety, beyond};
+use super::spec::{Place, Spec};
+use crate::app::bench::questions;
+use crate::app::crew::Studies;
 use crate::app::panels::computing;
+use crate::app::session::Session;
 use crate::app::text::{fill, marked, reworded, tr};
 use crate::app::theme;
-use crate::app::view::Panel;
+use crate::app::view::View;
+use crate::app::view::design::Page;
 use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
@@ -21,26 +26,36 @@ use crate::questions::design::peak::Peak;
 use crate::questions::load::{BestAt, LoadStudy};
 use crate::scheduler::{Study as _, Table};
 
-/// Draws the card with the curves.
-pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let progress =
-        context.studies.lanes.study::<LoadStudy>().map(|study| (study.progress(), study.finished()));
-    let hint = match progress {
-        Some((done, false)) => computing(done),
+/// The curves.
+pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Load), |_| tr("Over the load"), contents)
+    .hint(hint)
+    .asking(ask)
+    .embedded("load", marked("Over the load"));
+
+fn hint(context: &Context<'_>) -> String {
+    match context.studies.lanes.study::<LoadStudy>() {
+        Some(study) if !study.finished() => computing(study.progress()),
         _ => tr("click to take a load").to_owned(),
-    };
-    context.plot_card(ui, Panel::Load, tr("Over the load"), &hint, |context, ui| {
-        header(context, ui);
-        match context.studies.lanes.study::<LoadStudy>() {
-            Some(study) if study.failure().is_none() => plot(context, ui, study),
-            study => {
-                let why = study
-                    .and_then(LoadStudy::failure)
-                    .unwrap_or(marked("There is no curve for this device."));
-                plot_style::no_data(ui, ui.available_rect_before_wrap(), &reworded(why));
-            }
+    }
+}
+
+fn ask(view: &View, session: &Session, studies: &mut Studies) {
+    studies.load(view);
+    if let Some(loads) = studies.lanes.study() {
+        studies.tabulate(questions::best_frequencies(view, session, loads));
+    }
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    header(context, ui);
+    match context.studies.lanes.study::<LoadStudy>() {
+        Some(study) if study.failure().is_none() => plot(context, ui, study),
+        study => {
+            let why =
+                study.and_then(LoadStudy::failure).unwrap_or(marked("There is no curve for this device."));
+            plot_style::no_data(ui, ui.available_rect_before_wrap(), &reworded(why));
         }
-    });
+    }
 }
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {

@@ -3,12 +3,13 @@
 use egui::{RichText, Ui};
 use egui_plot::{PlotBounds, PlotPoint};
 
-use super::traced::{Traced, look, si};
+use super::Context;
+use super::live::traced::{Traced, look, si};
+use super::spec::{Place, Spec};
 use crate::app::live::Sample;
-use crate::app::panels::Context;
 use crate::app::text::tr;
 use crate::app::theme;
-use crate::app::view::Panel;
+use crate::app::view::Tab;
 use crate::app::view::live::Trace;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips};
@@ -19,14 +20,17 @@ const TRIGGERED_FROM: f64 = 6.0;
 /// Windows to choose from: periods of doubled motions divide all of them.
 const WINDOWS: [(usize, &str); 3] = [(4, "4"), (12, "12"), (48, "48")];
 
-/// Draws the card.
-pub(in crate::app::panels) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let triggered = context.view.live.speed >= TRIGGERED_FROM;
-    let hint = if triggered { tr("triggered at phase 0") } else { tr("rolling") };
-    context.plot_card(ui, Panel::Oscilloscope, tr("Oscilloscope"), hint, |context, ui| {
-        choices(context, ui);
-        plot(context, ui, triggered);
-    });
+/// The oscilloscope.
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Live), |_| tr("Oscilloscope"), contents)
+    .hint(|context| if triggered(context) { tr("triggered at phase 0") } else { tr("rolling") }.to_owned());
+
+fn triggered(context: &Context<'_>) -> bool {
+    context.view.live.speed >= TRIGGERED_FROM
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    choices(context, ui);
+    plot(context, ui, triggered(context));
 }
 
 fn choices(context: &mut Context<'_>, ui: &mut Ui) {

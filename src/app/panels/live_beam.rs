@@ -4,18 +4,17 @@ use std::f64::consts::TAU;
 
 use egui::Ui;
 
+use super::Context;
+use super::spec::{Place, Spec};
 use crate::app::curves::{self, SIGHT};
-use crate::app::panels::Context;
 use crate::app::text::{fill, tr};
-use crate::app::view::Panel;
+use crate::app::view::Tab;
 use crate::app::widgets::BeamView;
 use crate::app::widgets::number::short;
 
-/// Draws the card.
-pub(in crate::app::panels) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = hint(context);
-    context.plot_card(ui, Panel::LiveBeam, tr("Live beam"), &hint, picture);
-}
+/// The beam, a picture.
+pub(super) const PANEL: Spec =
+    Spec::new(Place::Tab(Tab::Live), |_| tr("Live beam"), picture).hint(hint).without_plot();
 
 /// How fast it moves, next to the device.
 fn hint(context: &Context<'_>) -> String {

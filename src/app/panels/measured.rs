@@ -3,15 +3,15 @@
 use egui::{RichText, Ui};
 use egui_plot::PlotPoint;
 
-use super::alignment;
-use super::measure::Measure;
+use super::design::alignment;
+use super::design::measure::Measure;
+use super::spec::{Place, Spec};
+use super::{Context, grid};
 use crate::app::bench::measured::{Domain, File};
 use crate::app::command::Command;
-use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, tr};
 use crate::app::theme;
-use crate::app::view::Panel;
-use crate::app::view::design::Watched;
+use crate::app::view::design::{Page, Watched};
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Card, Icon, Series, chips, legend};
@@ -21,21 +21,26 @@ use crate::questions::harvest::HarvestStudy;
 /// Most columns that are offered.
 const COLUMNS: usize = 8;
 
-/// Draws the card with the plot.
-pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.bench.measured.progress() {
+/// The plot.
+pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Measured), |_| tr("Measured"), contents)
+    .hint(hint)
+    .asking(|view, session, studies| studies.harvest(view, session));
+
+fn hint(context: &Context<'_>) -> String {
+    match context.bench.measured.progress() {
         Some(done) => fill("reading {percent} %", &[("percent", &format!("{:.0}", 100.0 * done))]),
         None => tr("drop a file anywhere on the page").to_owned(),
-    };
-    context.plot_card(ui, Panel::Measured, tr("Measured"), &hint, |context, ui| {
-        match &context.bench.measured.file {
-            None => before_a_file(context, ui),
-            Some(file) => match file.reading.domain {
-                Domain::Time => over_time(context, ui, file),
-                Domain::Frequency => frequencies(context, ui, file),
-            },
-        }
-    });
+    }
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    match &context.bench.measured.file {
+        None => before_a_file(context, ui),
+        Some(file) => match file.reading.domain {
+            Domain::Time => over_time(context, ui, file),
+            Domain::Frequency => frequencies(context, ui, file),
+        },
+    }
 }
 
 /// What a record is going to be laid over, and how to bring one.

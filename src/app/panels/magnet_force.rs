@@ -3,10 +3,11 @@
 use egui::Ui;
 use egui_plot::PlotPoint;
 
-use crate::app::panels::{Context, grid};
+use super::Context;
+use super::spec::{Place, Spec};
 use crate::app::text::{marked, tr};
 use crate::app::theme;
-use crate::app::view::Panel;
+use crate::app::view::design::Page;
 use crate::app::widgets::number::prefix;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
@@ -24,17 +25,18 @@ const POINTS: usize = 161;
 const MARGIN: f64 = 0.12;
 const HALF_RANGE: f64 = 0.6;
 
-/// Draws the card with the curves.
-pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = tr("beyond the linear part");
-    context.plot_card(ui, Panel::MagnetForce, tr("The magnets' force"), hint, |context, ui| {
-        let entries: Vec<(Series, &str)> = LINES.into_iter().zip(NAMES.map(tr)).collect();
-        legend::legend(ui, &entries);
-        match range(context) {
-            Some(range) => plot(context, ui, range),
-            None => plot_style::no_data(ui, ui.available_rect_before_wrap(), tr("There are no magnets.")),
-        }
-    });
+/// The curves.
+pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Trust), |_| tr("The magnets' force"), contents)
+    .hint(|_| tr("beyond the linear part").to_owned())
+    .embedded("force", marked("The magnets' force"));
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    let entries: Vec<(Series, &str)> = LINES.into_iter().zip(NAMES.map(tr)).collect();
+    legend::legend(ui, &entries);
+    match range(context) {
+        Some(range) => plot(context, ui, range),
+        None => plot_style::no_data(ui, ui.available_rect_before_wrap(), tr("There are no magnets.")),
+    }
 }
 
 /// Lowest and highest tip displacement of the motion reached (beam lengths), and whether there is such a motion.
@@ -78,10 +80,4 @@ fn plot(context: &Context<'_>, ui: &mut Ui, (low, high, moves): (f64, f64, bool)
             plot_style::series(plot, kind, tr(name), line);
         }
     });
-}
-
-/// The card in what room there is.
-pub(super) fn place(context: &mut Context<'_>, ui: &mut Ui, height: f32) {
-    let width = ui.available_width();
-    grid::place(ui, width, height, &mut |ui| show(context, ui));
 }

@@ -3,14 +3,15 @@
 use egui::Ui;
 use egui_plot::PlotPoint;
 
-use super::going::go_to;
-use super::measure::{Measure, values};
-use super::safety::{Safety, beyond};
-use crate::app::panels::{Context, computing, say_cut};
-use crate::app::text::{fill, tr};
+use super::Context;
+use super::design::going::go_to;
+use super::design::measure::{Measure, values};
+use super::design::safety::{Safety, beyond};
+use super::spec::{Place, Spec};
+use crate::app::panels::{computing, say_cut};
+use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
-use crate::app::view::Panel;
-use crate::app::view::design::Watched;
+use crate::app::view::design::{Page, Watched};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips, legend};
 use crate::export::Pen;
@@ -19,31 +20,27 @@ use crate::questions::harvest::HarvestStudy;
 use crate::questions::sweep::Direction;
 use crate::scheduler::Study as _;
 
-/// Draws the card.
-pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.lanes.study::<HarvestStudy>() {
+/// The curves.
+pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Harvest), |_| tr("Over frequency"), contents)
+    .hint(hint)
+    .asking(|view, session, studies| studies.harvest(view, session))
+    .embedded("harvest", marked("Over frequency"));
+
+fn hint(context: &Context<'_>) -> String {
+    match context.studies.lanes.study::<HarvestStudy>() {
         Some(study) if !study.finished() => computing(study.progress()),
         _ => tr("click to go to a frequency").to_owned(),
+    }
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    header(context, ui);
+    let failure = match context.studies.lanes.study::<HarvestStudy>() {
+        Some(study) if study.failure().is_none() => return plot(context, ui, study),
+        Some(study) => study.failure().unwrap_or_default(),
+        None => tr("There are no curves for this device: see the message above."),
     };
-    context.plot_card(ui, Panel::Harvest, tr("Over frequency"), &hint, |context, ui| {
-        header(context, ui);
-        let study = context.studies.lanes.study::<HarvestStudy>();
-        match study {
-            Some(study) if study.failure().is_none() => plot(context, ui, study),
-            Some(study) => {
-                let rect = ui.available_rect_before_wrap();
-                plot_style::no_data(ui, rect, study.failure().unwrap_or_default());
-            }
-            None => {
-                let rect = ui.available_rect_before_wrap();
-                plot_style::no_data(
-                    ui,
-                    rect,
-                    tr("There are no curves for this device: see the message above."),
-                );
-            }
-        }
-    });
+    plot_style::no_data(ui, ui.available_rect_before_wrap(), failure);
 }
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
@@ -163,7 +160,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
                 safety.voltage_lines(plot, low, &|volts| measure.coordinate(volts))
             }
             (Some(safety), Watched::Tip) => safety.tip_lines(plot, low),
-            (_, Watched::Power) => super::bands::least_line(plot, view, study, &measure),
+            (_, Watched::Power) => super::design::bands::least_line(plot, view, study, &measure),
             _ => {}
         }
     });

@@ -3,12 +3,15 @@
 use egui::{Color32, Id, Ui};
 use egui_plot::PlotBounds;
 
-use super::digits::in_digits;
+use super::design::search::digits::in_digits;
+use super::spec::{Place, Spec};
+use super::{Context, computing};
+use crate::app::crew::Studies;
 use crate::app::panels::device::{self, adopt};
-use crate::app::panels::{Context, computing};
+use crate::app::session::Session;
 use crate::app::text::{fill, tr, within};
-use crate::app::view::Panel;
-use crate::app::view::design::Aim;
+use crate::app::view::View;
+use crate::app::view::design::{Aim, Page};
 use crate::app::widgets::number::{self, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Filling, chips, colour_bar, hatched, recorder, swatches};
@@ -18,20 +21,32 @@ use crate::questions::design::find::{Evaluation, Objective};
 use crate::questions::map::DesignMap;
 use crate::scheduler::Study as _;
 
-/// Draws the map's card.
-pub(in crate::app::panels::design) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.lanes.study::<DesignMap>() {
+/// Columns and rows.
+const SIZE: (usize, usize) = (40, 28);
+
+/// The map.
+pub(super) const PANEL: Spec =
+    Spec::new(Place::Page(Page::Search), |_| tr("Map"), contents).hint(hint).asking(ask);
+
+fn hint(context: &Context<'_>) -> String {
+    match context.studies.lanes.study::<DesignMap>() {
         Some(map) if !map.finished() => computing(map.progress()),
         _ => tr("drag or click to go there").to_owned(),
-    };
-    context.plot_card(ui, Panel::DesignMap, tr("Map"), &hint, |context, ui| {
-        let Some(map) = context.studies.lanes.study::<DesignMap>() else { return };
-        header(context, ui, map);
-        match map.failure() {
-            Some(why) => plot_style::no_data(ui, ui.available_rect_before_wrap(), why),
-            None => plot(context, ui, map),
-        }
-    });
+    }
+}
+
+fn ask(view: &View, session: &Session, studies: &mut Studies) {
+    let question = bench::questions::map(view, session);
+    studies.lanes.ask(question, |question| DesignMap::new(question, SIZE).ok());
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    let Some(map) = context.studies.lanes.study::<DesignMap>() else { return };
+    header(context, ui, map);
+    match map.failure() {
+        Some(why) => plot_style::no_data(ui, ui.available_rect_before_wrap(), why),
+        None => plot(context, ui, map),
+    }
 }
 
 /// What is mapped, with its unit.

@@ -1,0 +1,37 @@
+//! What the page in view asks the crew: one lane a topic, the newest question of each.
+
+use super::crew::Studies;
+use super::embed::Embed;
+use super::panels::spec::Place;
+use super::panels::{design, list};
+use super::questions;
+use super::session::Session;
+use super::view::{Panel, Tab, View};
+use crate::questions::inspection::Inspect;
+use crate::questions::tongues::TongueStudy;
+
+/// Asks for what the view shows, or the frame that holds the page.
+pub(super) fn ask(studies: &mut Studies, view: &View, session: &Session, embed: Option<&Embed>) {
+    let designs = embed.is_none() && view.tab == Tab::Design;
+    if designs {
+        design::ask(studies, view);
+    } else if view.scenario.model.modes > 1 {
+        studies
+            .lanes
+            .offer(questions::tongues(view), |(scenario, window)| Some(TongueStudy::new(scenario, window)));
+    }
+    // The goals of a lesson are checked by the verdict, on whatever tab.
+    if !designs || view.lesson.is_some() {
+        studies.offer(Inspect { scenario: view.scenario.clone() });
+    }
+    let shown: Vec<Panel> = match embed {
+        Some(embed) => Panel::ALL.iter().copied().filter(|panel| embed.shows(*panel)).collect(),
+        None => list::at(Place::of(view)),
+    };
+    for panel in shown.into_iter().map(list::spec) {
+        if matches!(panel.place, Place::Page(_)) {
+            studies.deliver(&view.scenario);
+        }
+        (panel.ask)(view, session, studies);
+    }
+}
