@@ -2,7 +2,7 @@
 
 use super::crew::Studies;
 use super::embed::Embed;
-use super::panels::spec::Place;
+use super::panels::spec::{Asking, Place};
 use super::panels::{design, list};
 use super::questions;
 use super::session::Session;
@@ -32,6 +32,6 @@ pub(super) fn ask(studies: &mut Studies, view: &View, session: &Session, embed: 
         if matches!(panel.place, Place::Page(_)) {
             studies.deliver(&view.scenario);
         }
-        (panel.ask)(view, session, studies);
+        (panel.ask)(&mut Asking { view, session, studies });
     }
 }

@@ -1,7 +1,7 @@
 //! The page inside of another one: `?embed=map,phase&controls=omega` shows just these, for a frame in slides.
 //!
 //! `app::embed` reads `?embed=..&controls=..`; `panels::embedded` draws instead of the page, from the panels that the
-//! tabs draw, and `Studies::follow` asks for what these show. The keeper of such a page has no storage and leaves the
+//! tabs draw, and `app::asking` asks for what these show. The keeper of such a page has no storage and leaves the
 //! address alone. `bridge` asks `App::keeps` of each event whether the browser is to do nothing more with it: the
 //! wheel and a finger belong to the page around, unless Ctrl is down, the contents are too tall for the frame, or the
 //! finger is on a `widgets::touch::grip`. `touch-action: pan-y` lets the browser scroll then; it tells of that by a

@@ -86,9 +86,8 @@ fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
 
 fn draw_tab(context: &mut Context<'_>, ui: &mut Ui) {
     match context.view.tab {
-        Tab::Explore => panels::explore::show(context, ui),
+        Tab::Explore | Tab::Stability => panels::plots::show(context, ui),
         Tab::Live => panels::live::show(context, ui),
-        Tab::Stability => panels::stability::show(context, ui),
         Tab::Sweep => panels::sweep::show(context, ui),
         Tab::Design => panels::design::show(context, ui),
         Tab::Paper => panels::paper::show(context, ui),

@@ -3,9 +3,9 @@
 use egui_plot::PlotPoint;
 
 use super::view::MapWindow;
-use crate::model::ReducedSystem;
+use crate::model::{ParameterSet, ReducedSystem};
 use crate::questions::design::Plant;
-use crate::scenario::{ModelChoice, Scenario};
+use crate::scenario::Scenario;
 use crate::spacing::equally_spaced;
 use crate::theory::{CoupledModes, Published, Resonance};
 
@@ -32,19 +32,11 @@ pub(super) fn ceiling(window: MapWindow, beta: f64) -> f64 {
     CEILINGS.into_iter().find(|ceiling| *ceiling >= wanted).unwrap_or(0.2)
 }
 
-/// Everything the boundaries depend on: the device without its excitation.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Structure {
-    numbers: [f64; 8],
-    model: ModelChoice,
-}
-
-impl Structure {
-    /// The structure of a scenario.
-    pub(super) fn of(scenario: &Scenario) -> Self {
-        let p = &scenario.parameters;
-        Self { numbers: [p.alpha, p.c0, p.d, p.h, p.eta, p.c, p.kappa, p.theta], model: scenario.model }
-    }
+/// What the boundaries depend on: the device of `scenario` without its excitation.
+pub(super) fn structure(scenario: &Scenario) -> Scenario {
+    let usual = ParameterSet::default();
+    let parameters = ParameterSet { omega: usual.omega, beta: usual.beta, ..scenario.parameters };
+    Scenario { parameters, model: scenario.model, ..Scenario::default() }
 }
 
 /// A resonance's frequency and its boundaries as (omega, beta); gaps are NaN.
@@ -64,7 +56,7 @@ pub(super) struct Tongue {
 #[derive(Debug, Clone)]
 pub(super) struct Boundaries {
     /// What they belong to.
-    pub structure: Structure,
+    pub structure: Scenario,
     /// Natural frequencies.
     pub frequencies: Vec<f64>,
     /// One tongue a resonance; none for a single mode.
@@ -79,7 +71,7 @@ pub(super) struct Boundaries {
 
 impl Boundaries {
     /// Computes the boundaries of `system`; its excitation plays no role.
-    pub(super) fn new(structure: Structure, system: &ReducedSystem) -> Self {
+    pub(super) fn new(structure: Scenario, system: &ReducedSystem) -> Self {
         let published = Published::new(system).ok();
         let coupled = CoupledModes::new(system).ok();
         let tongues = published.as_ref().map_or_else(Vec::new, |published| {

@@ -48,12 +48,9 @@ pub(super) fn chart(view: &View, boundaries: &Boundaries) -> (Scenario, Chart) {
 
 /// The exact tongues of the device in view, whatever its excitation and start.
 pub(super) fn tongues(view: &View) -> (Scenario, Window) {
-    let Scenario { parameters, model, .. } = view.scenario;
-    let usual = ParameterSet::default();
-    let parameters = ParameterSet { omega: usual.omega, beta: usual.beta, ..parameters };
     let ceiling = map::ceiling(view.map, view.scenario.parameters.beta);
     let limit = TONGUE_LIMITS.into_iter().find(|limit| *limit >= ceiling).unwrap_or(TONGUE_LIMITS[1]);
-    (Scenario { parameters, model, ..Scenario::default() }, Window { span: TONGUE_SPAN, limit })
+    (map::structure(&view.scenario), Window { span: TONGUE_SPAN, limit })
 }
 
 /// The basins of the scenario in view, whatever its start.
@@ -124,7 +121,7 @@ mod tests {
     fn the_excitation_in_view_does_not_make_another_chart() {
         let mut view = View::default();
         let (system, _) = view.scenario.validate().expect("a valid start");
-        let boundaries = Boundaries::new(map::Structure::of(&view.scenario), &system);
+        let boundaries = Boundaries::new(map::structure(&view.scenario), &system);
         let before = chart(&view, &boundaries);
         view.scenario.parameters.beta *= 0.9;
         view.scenario.parameters.omega += 0.1;

@@ -6,7 +6,7 @@ use super::clock::milliseconds;
 use super::comparison::Comparison;
 use super::curves::Curves;
 use super::figures::Figure;
-use super::map::{Boundaries, Structure};
+use super::map::{Boundaries, structure};
 use crate::questions::{Run, RunJob};
 use crate::scenario::Scenario;
 
@@ -83,7 +83,7 @@ impl Session {
         self.waiting = Some(scenario.clone());
         self.generation += 1;
         self.asked_in_frame = self.frame;
-        let wanted = Structure::of(scenario);
+        let wanted = structure(scenario);
         if self.boundaries.as_ref().is_none_or(|boundaries| boundaries.structure != wanted)
             && let Ok((system, _)) = scenario.validate()
         {

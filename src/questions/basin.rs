@@ -150,7 +150,7 @@ impl Question for Basin {
         let mut study = BasinStudy::new(scenario, self.clone())?;
         complete_within(&mut study, budget);
         failed(study.chart().failure())?;
-        let plane = study.chart().question();
+        let plane = study.chart().asked();
         let (columns, rows) = plane.size;
         let name = |(coordinate, _): (Coordinate, _)| coordinate.name(plane.scenario.model.modes);
         let row = |row| (0..columns).map(|column| study.shown(column, row).flatten()).collect();
@@ -233,7 +233,7 @@ impl BasinStudy {
     /// Indices of the components (q_1..q_N, dq_1/dt.., v) that change from column to column and from row to row, each with
     /// its lowest and highest value.
     pub fn sides(&self) -> [(usize, (f64, f64)); 2] {
-        let plane = self.chart.question();
+        let plane = self.chart.asked();
         [plane.x, plane.y].map(|(coordinate, range)| match coordinate {
             Coordinate::Start(index) => (index, range),
             _ => (0, range),

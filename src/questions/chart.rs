@@ -11,7 +11,7 @@ use super::question::Question;
 use crate::dynamics::attractors::motion::Cell;
 use crate::model::Parameter;
 use crate::scenario::Scenario;
-use crate::scheduler::{Budget, complete_within};
+use crate::scheduler::{Asked as _, Budget, complete_within};
 use crate::spacing::equally_spaced;
 
 /// A chart; the scenario's beta and omega play no role. A start is followed until its motion is known, whatever the
@@ -123,7 +123,7 @@ impl Question for Chart {
 
 /// What `read` makes of each cell, row by row.
 fn cells<T>(chart: &MotionChart, read: impl Fn(&Cell) -> Option<T>) -> Vec<Vec<Option<T>>> {
-    let (columns, rows) = chart.question().size;
+    let (columns, rows) = chart.asked().size;
     let cell = |column, row| chart.cell(column, row).flatten().and_then(|cell| read(&cell));
     (0..rows).map(|row| (0..columns).map(|column| cell(column, row)).collect()).collect()
 }

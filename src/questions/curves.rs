@@ -117,11 +117,6 @@ impl CurvesStudy {
         }
     }
 
-    /// What is traced.
-    pub fn question(&self) -> &CurvesQuestion {
-        &self.question
-    }
-
     /// The curves found so far.
     pub fn curves(&self) -> &[Curve] {
         self.known.curves()

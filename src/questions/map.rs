@@ -156,11 +156,6 @@ impl DesignMap {
         Ok(Self { question, size, tiles, failure: None, version: 0 })
     }
 
-    /// What is mapped.
-    pub fn question(&self) -> &FindQuestion {
-        &self.question
-    }
-
     /// Columns and rows.
     pub fn size(&self) -> (usize, usize) {
         self.size

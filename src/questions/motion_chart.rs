@@ -101,11 +101,6 @@ impl MotionChart {
         Self { tiles, question, piece: SLOW_PIECE, failure: None, version: 0 }
     }
 
-    /// What is charted.
-    pub fn question(&self) -> &MotionQuestion {
-        &self.question
-    }
-
     /// Grows with every change, so that a picture knows when it is old.
     pub fn version(&self) -> u64 {
         self.version

@@ -13,7 +13,7 @@
 //! and takes findings in inside the message handler, so that work goes on in a background tab.
 //!
 //! A lane is found by the type of its study; `questions::list::lanes` says which there are, and which are urgent. It
-//! asks anew when scenario or question differ from the last. What plays no role in an answer is taken out by
+//! asks anew when what is [`Asked`] differs from the last. What plays no role in an answer is taken out by
 //! `Scenario::forgetting` before that, so that moving it asks nothing new.
 //!
 //! The workers run the page's own module: the page hands its compiled `WebAssembly.Module` over, and the entry point

@@ -7,7 +7,7 @@ use harvester_lab::dynamics::{Effort, Motion, Orbit, reach};
 use harvester_lab::model::{ParameterSet, ReducedSystem};
 use harvester_lab::questions::basin::{Attractor, Basin, BasinStudy, Side};
 use harvester_lab::scenario::Scenario;
-use harvester_lab::scheduler::{Study, complete};
+use harvester_lab::scheduler::{Asked, Study, complete};
 
 fn scenario(omega: f64, initial: Option<Vec<f64>>) -> Scenario {
     let parameters = ParameterSet { alpha: 1e-4, beta: 0.01, omega, ..Default::default() };
@@ -19,7 +19,7 @@ fn scenario(omega: f64, initial: Option<Vec<f64>>) -> Scenario {
 fn basins(scenario: Scenario, question: Basin) -> Fallible<(BasinStudy, Vec<Attractor>)> {
     let (system, _): (ReducedSystem, _) = scenario.validate()?;
     let mut basin = BasinStudy::new(scenario, question)?;
-    let (columns, rows) = basin.chart().question().size;
+    let (columns, rows) = basin.chart().asked().size;
     complete(&mut basin);
     assert!(basin.finished() && basin.chart().failure().is_none());
     let attractors = basin.attractors();
@@ -102,7 +102,7 @@ fn figure_9_has_one_motion_of_period_2_although_both_its_phases_are_reached() ->
     for (column, row) in (0..11).flat_map(|row| (0..11).map(move |column| (column, row))) {
         let leads_there = basin.shown(column, row).flatten().is_some_and(|i| attractors[i] == *found);
         if leads_there {
-            let [q, rate] = basin.chart().question().place((column, row));
+            let [q, rate] = basin.chart().asked().place((column, row));
             let reached = reach(&system, &[q, 0.0, rate, 0.0, 0.0], Effort::full())?;
             let periods = (reached.time / system.parameters.period()).round() as u64;
             let near = (reached.state[0] - found.start[0]).abs() < 1e-3;

@@ -1,7 +1,7 @@
 //! The design bench of the page: the device in view in SI units, its limits, and what the user brought along.
 //!
-//! `view::design` is what is stored of it, `bench::questions` turns it into questions, `crew::bench` asks them, only
-//! for the page in front, `panels::design` draws. The ten numbers stay what is computed from: editing a dimension goes
+//! `view::design` is what is stored of it, `bench::questions` turns it into questions, `panels::design` asks them
+//! and draws, only the page in front. The ten numbers stay what is computed from: editing a dimension goes
 //! through `Scenario::set_device`, which refuses what is no device (the reason stands under the sliders), and
 //! `bench::device` gives the entered digits back as long as they hold. A question leaves out what plays no role in its
 //! answer (the frequency in a curve over frequency, the ceramic in a table of ceramics), so that moving it asks

@@ -1,6 +1,5 @@
 //! What is being studied for the page: one lane a topic, the newest question of each.
 
-use crate::app::map::Structure;
 use crate::questions::design::linear::LinearBest;
 use crate::questions::inspection::{Inspect, Inspection};
 use crate::questions::list;
@@ -52,9 +51,9 @@ impl Studies {
     }
 
     /// The newest exact tongues, and whether they belong to `structure`.
-    pub(in crate::app) fn tongues(&self, structure: &Structure) -> Option<(&TongueStudy, bool)> {
+    pub(in crate::app) fn tongues(&self, structure: &Scenario) -> Option<(&TongueStudy, bool)> {
         let study: &TongueStudy = self.lanes.finished().or_else(|| self.lanes.study())?;
-        Some((study, Structure::of(&study.asked().0) == *structure))
+        Some((study, study.asked().0 == *structure))
     }
 
     /// The newest response curves.

@@ -1,7 +1,7 @@
 use super::*;
 use crate::app::command::Command;
 use crate::app::history::Hand;
-use crate::app::map::{Boundaries, Structure};
+use crate::app::map::{self, Boundaries};
 use crate::app::rehearsal;
 use crate::app::session::Session;
 use crate::app::view;
@@ -142,7 +142,7 @@ fn the_solver_answers_what_the_programs_ask() {
 fn the_chart_in_view_is_asked_for() {
     let view = crate::app::link::read("v=1&tab=stability&map=first&alpha=1e-4", &View::default()).0;
     let system = view.scenario.model.system(view.scenario.parameters).expect("a system");
-    let structure = Structure::of(&view.scenario);
+    let structure = map::structure(&view.scenario);
     let mut session = Session::default();
     session.boundaries = Some(Boundaries::new(structure, &system));
     for (layer, quantity) in [(view::Layer::Multiplier, "multiplier"), (view::Layer::Voltage, "v_rms")] {

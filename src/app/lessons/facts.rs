@@ -5,7 +5,7 @@
 
 use serde_json::{Value, json};
 
-use crate::app::map::{Boundaries, Structure};
+use crate::app::map::{Boundaries, structure};
 use crate::app::view::View;
 use crate::dynamics::Verdict;
 use crate::questions::inspection;
@@ -38,7 +38,7 @@ pub(in crate::app) fn facts(
 /// One line when the scenario cannot be computed.
 pub fn facts_at_once(view: &View) -> Result<Value, String> {
     let (system, _) = view.scenario.validate().map_err(|error| error.to_string())?;
-    let boundaries = Boundaries::new(Structure::of(&view.scenario), &system);
+    let boundaries = Boundaries::new(structure(&view.scenario), &system);
     let found = inspection::inspect(&view.scenario).map_err(|error| error.to_string())?;
     Ok(facts(view, Some(&boundaries), Some(&found.verdict)))
 }

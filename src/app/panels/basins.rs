@@ -4,13 +4,10 @@ use egui::{Color32, Id, RichText, Ui};
 use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
-use super::spec::{Place, Spec};
-use crate::app::crew::Studies;
-use crate::app::panels::computing;
-use crate::app::session::Session;
+use super::spec::{Asking, Place, Spec};
 use crate::app::text::{fill, marked, motion_in_words, tr};
 use crate::app::theme::{self, Tokens};
-use crate::app::view::{Tab, View};
+use crate::app::view::Tab;
 use crate::app::widgets::number::{round_significant, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{attractor_row, draw_raster, raster, recorder};
@@ -18,7 +15,7 @@ use crate::app::{colours, questions};
 use crate::dynamics::attractors::motion::Motion;
 use crate::questions::basin::{Attractor, BasinStudy};
 use crate::scenario::Scenario;
-use crate::scheduler::Study as _;
+use crate::scheduler::Asked as _;
 
 /// Attractors that are listed.
 const LISTED: usize = 6;
@@ -29,18 +26,11 @@ const LIST_WIDTH: f32 = 190.0;
 /// The basins.
 pub(super) const PANEL: Spec =
     Spec::new(Place::Tab(Tab::Stability), |_| tr("Basins of attraction"), contents)
-        .hint(hint)
+        .hint(|context| context.computing::<BasinStudy>(tr("click to start there")))
         .asking(ask)
         .embedded("basins", marked("Basins of attraction"));
 
-fn hint(context: &Context<'_>) -> String {
-    match context.studies.lanes.study::<BasinStudy>() {
-        Some(basin) if !basin.finished() => computing(basin.progress()),
-        _ => tr("click to start there").to_owned(),
-    }
-}
-
-fn ask(view: &View, _: &Session, studies: &mut Studies) {
+fn ask(Asking { view, studies, .. }: &mut Asking<'_>) {
     studies.lanes.ask(questions::basin(view), |(scenario, basin)| BasinStudy::new(scenario, basin).ok());
 }
 
@@ -114,7 +104,7 @@ fn list(context: &mut Context<'_>, ui: &mut Ui, attractors: &[Attractor]) {
 fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &BasinStudy, attractors: &[Attractor]) {
     let tokens = theme::tokens(ui);
     let [(i, x_range), (j, y_range)] = basin.sides();
-    let size = basin.chart().question().size;
+    let size = basin.chart().asked().size;
     let lane = context.studies.lanes.generation::<BasinStudy>();
     let revision = basin.chart().version() ^ (lane << 32) ^ tokens.number() << 62;
     let colours = colours_of(attractors, tokens);

@@ -5,17 +5,14 @@ use egui_plot::PlotBounds;
 
 use super::Context;
 use super::design::safety::Safety;
-use super::spec::{Place, Spec};
+use super::spec::{Asking, Place, Spec};
 use super::stability_map::{self, drag_point};
 use crate::app::command::Command;
-use crate::app::crew::Studies;
 use crate::app::map::{Boundaries, ceiling};
-use crate::app::panels::computing;
 use crate::app::questions;
-use crate::app::session::Session;
 use crate::app::text::{marked, motion_in_words, tr};
 use crate::app::theme::{self, Tokens};
-use crate::app::view::{Layer, Tab, View};
+use crate::app::view::{Layer, Tab};
 use crate::app::widgets::number::{self, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{
@@ -36,19 +33,14 @@ pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Stability), |_| tr("Sta
     .embedded("chart", marked("Stability chart"));
 
 fn hint(context: &Context<'_>) -> String {
-    let progress = match context.view.layer {
-        Layer::Multiplier => {
-            context.studies.lanes.study::<MultiplierChart>().map(|chart| (chart.progress(), chart.finished()))
-        }
-        _ => context.studies.lanes.study::<MotionChart>().map(|chart| (chart.progress(), chart.finished())),
-    };
-    match progress {
-        Some((done, false)) => computing(done),
-        _ => tr("drag or click to move").to_owned(),
+    let usual = tr("drag or click to move");
+    match context.view.layer {
+        Layer::Multiplier => context.computing::<MultiplierChart>(usual),
+        _ => context.computing::<MotionChart>(usual),
     }
 }
 
-fn ask(view: &View, session: &Session, studies: &mut Studies) {
+fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
     let Some(boundaries) = &session.boundaries else { return };
     let (scenario, chart) = questions::chart(view, boundaries);
     if chart.quantity == Quantity::Multiplier {
@@ -129,7 +121,7 @@ fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
 
 /// The largest value of a chart, in the unit of its cells.
 fn highest(chart: &MotionChart, layer: Layer) -> f64 {
-    let (columns, rows) = chart.question().size;
+    let (columns, rows) = chart.asked().size;
     let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
     let known = cells.filter_map(|(column, row)| chart.cell(column, row).flatten());
     known.map(|cell| value(&cell, layer)).fold(0.0, f64::max)
@@ -171,7 +163,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
         return Some(Picture { cells: Cells::Plain(texture), omega, beta, known: chart.version() > 0 });
     }
     let chart = context.studies.lanes.study::<MotionChart>()?;
-    let question = chart.question();
+    let question = chart.asked();
     let top = highest(chart, layer).max(f64::MIN_POSITIVE);
     let colour = |cell: Cell| -> Color32 {
         let ended = matches!(cell.motion, Motion::Escape { .. } | Motion::Contact { .. });
@@ -228,7 +220,7 @@ fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f6
         Layer::Power => tr("power of the motion reached [µW]"),
         _ => tr("motion reached"),
     };
-    recorder::cells(plot, name, chart.question().size, ranges, &value);
+    recorder::cells(plot, name, chart.asked().size, ranges, &value);
 }
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {

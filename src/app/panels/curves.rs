@@ -3,13 +3,11 @@
 use egui::Ui;
 use egui_plot::{PlotBounds, PlotPoint};
 
-use super::spec::{Place, Spec};
+use super::spec::{Asking, Place, Spec};
 use super::{Context, parameter};
 use crate::app::command::Command;
-use crate::app::crew::Studies;
-use crate::app::session::Session;
 use crate::app::text::{fill, marked, reworded, tr};
-use crate::app::view::{Tab, View};
+use crate::app::view::Tab;
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, chips_after, legend};
@@ -18,7 +16,7 @@ use crate::dynamics::Instability;
 use crate::dynamics::bifurcations::curves::Criticality;
 use crate::model::Parameter;
 use crate::questions::curves::{CurvesStudy, PARAMETERS};
-use crate::scheduler::Study as _;
+use crate::scheduler::{Asked as _, Study as _};
 
 /// The curves.
 pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Stability), |_| tr("Bifurcation curves"), contents)
@@ -38,7 +36,7 @@ fn hint(context: &Context<'_>) -> String {
     }
 }
 
-fn ask(view: &View, session: &Session, studies: &mut Studies) {
+fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
     if let Some(question) = questions::curves(view, session) {
         studies.lanes.ask(question, |question| Some(CurvesStudy::new(question)));
     }
@@ -86,8 +84,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     };
     let (x, y) = (titled(x_axis.parameter), titled(y_axis.parameter));
     let study =
-        context.studies.lanes.study::<CurvesStudy>().filter(|study| study.question().plane == question.plane);
-    let current = study.is_some_and(|study| *study.question() == question);
+        context.studies.lanes.study::<CurvesStudy>().filter(|study| study.asked().plane == question.plane);
+    let current = study.is_some_and(|study| *study.asked() == question);
     let curves = study.map_or(&[][..], |study| study.curves());
     let stretches = curves.iter().flat_map(|curve| {
         curve.stretches().into_iter().map(move |stretch| (curve.kind, stretch.criticality, stretch.places))

@@ -3,14 +3,11 @@
 use egui::{Color32, Id, Ui};
 use egui_plot::PlotBounds;
 
+use super::Context;
 use super::design::search::digits::in_digits;
-use super::spec::{Place, Spec};
-use super::{Context, computing};
-use crate::app::crew::Studies;
+use super::spec::{Asking, Place, Spec};
 use crate::app::panels::device::{self, adopt};
-use crate::app::session::Session;
 use crate::app::text::{fill, tr, within};
-use crate::app::view::View;
 use crate::app::view::design::{Aim, Page};
 use crate::app::widgets::number::{self, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -19,23 +16,17 @@ use crate::app::{bench, colours, theme};
 use crate::model::{Dimension, ElectricalScaling};
 use crate::questions::design::find::{Evaluation, Objective};
 use crate::questions::map::DesignMap;
-use crate::scheduler::Study as _;
+use crate::scheduler::Asked as _;
 
 /// Columns and rows.
 const SIZE: (usize, usize) = (40, 28);
 
 /// The map.
-pub(super) const PANEL: Spec =
-    Spec::new(Place::Page(Page::Search), |_| tr("Map"), contents).hint(hint).asking(ask);
+pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Search), |_| tr("Map"), contents)
+    .hint(|context| context.computing::<DesignMap>(tr("drag or click to go there")))
+    .asking(ask);
 
-fn hint(context: &Context<'_>) -> String {
-    match context.studies.lanes.study::<DesignMap>() {
-        Some(map) if !map.finished() => computing(map.progress()),
-        _ => tr("drag or click to go there").to_owned(),
-    }
-}
-
-fn ask(view: &View, session: &Session, studies: &mut Studies) {
+fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
     let question = bench::questions::map(view, session);
     studies.lanes.ask(question, |question| DesignMap::new(question, SIZE).ok());
 }
@@ -109,7 +100,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let tokens = theme::tokens(ui);
     let search = context.view.design.search;
     let (low, high) = extremes(map);
-    let inverted = matches!(map.question().objective, Objective::Threshold(_));
+    let inverted = matches!(map.asked().objective, Objective::Threshold(_));
     let colour = |cell: &Evaluation| -> Color32 {
         let Some(value) = cell.value else { return tokens.track };
         let share =
@@ -123,9 +114,9 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let generation = context.studies.lanes.generation::<DesignMap>();
     let revision = map.version() ^ (generation << 32) ^ tokens.number() << 62;
     let picture = hatched(ui, Id::unique("design map"), revision, map.size(), &paint);
-    let variables = &map.question().variables;
+    let variables = &map.asked().variables;
     let sides = search.sides.map(|side| side.dimension);
-    let scaling = map.question().scenario.scaling;
+    let scaling = map.asked().scenario.scaling;
     let factors = sides.map(|dimension| device::words(dimension, scaling).3);
     let axes = [0, 1].map(|i| axis(sides[i], variables[i].logarithmic, scaling));
     let place = |i: usize, value: f64| axes[i].coordinate(factors[i] * value);

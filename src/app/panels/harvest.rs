@@ -8,7 +8,7 @@ use super::design::going::go_to;
 use super::design::measure::{Measure, values};
 use super::design::safety::{Safety, beyond};
 use super::spec::{Place, Spec};
-use crate::app::panels::{computing, say_cut};
+use crate::app::panels::say_cut;
 use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
 use crate::app::view::design::{Page, Watched};
@@ -18,20 +18,12 @@ use crate::export::Pen;
 use crate::questions::design::HarvestPoint;
 use crate::questions::harvest::HarvestStudy;
 use crate::questions::sweep::Direction;
-use crate::scheduler::Study as _;
 
 /// The curves.
 pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Harvest), |_| tr("Over frequency"), contents)
-    .hint(hint)
-    .asking(|view, session, studies| studies.harvest(view, session))
+    .hint(|context| context.computing::<HarvestStudy>(tr("click to go to a frequency")))
+    .asking(|asking| asking.studies.harvest(asking.view, asking.session))
     .embedded("harvest", marked("Over frequency"));
-
-fn hint(context: &Context<'_>) -> String {
-    match context.studies.lanes.study::<HarvestStudy>() {
-        Some(study) if !study.finished() => computing(study.progress()),
-        _ => tr("click to go to a frequency").to_owned(),
-    }
-}
 
 fn contents(context: &mut Context<'_>, ui: &mut Ui) {
     header(context, ui);

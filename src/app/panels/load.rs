@@ -7,14 +7,10 @@ use super::Context;
 use super::design::going::use_load;
 use super::design::optimum::Optimum;
 use super::design::safety::{Safety, beyond};
-use super::spec::{Place, Spec};
+use super::spec::{Asking, Place, Spec};
 use crate::app::bench::questions;
-use crate::app::crew::Studies;
-use crate::app::panels::computing;
-use crate::app::session::Session;
 use crate::app::text::{fill, marked, reworded, tr};
 use crate::app::theme;
-use crate::app::view::View;
 use crate::app::view::design::Page;
 use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -28,18 +24,11 @@ use crate::scheduler::{Study as _, Table};
 
 /// The curves.
 pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Load), |_| tr("Over the load"), contents)
-    .hint(hint)
+    .hint(|context| context.computing::<LoadStudy>(tr("click to take a load")))
     .asking(ask)
     .embedded("load", marked("Over the load"));
 
-fn hint(context: &Context<'_>) -> String {
-    match context.studies.lanes.study::<LoadStudy>() {
-        Some(study) if !study.finished() => computing(study.progress()),
-        _ => tr("click to take a load").to_owned(),
-    }
-}
-
-fn ask(view: &View, session: &Session, studies: &mut Studies) {
+fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
     studies.load(view);
     if let Some(loads) = studies.lanes.study() {
         studies.tabulate(questions::best_frequencies(view, session, loads));

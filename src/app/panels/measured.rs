@@ -24,7 +24,7 @@ const COLUMNS: usize = 8;
 /// The plot.
 pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Measured), |_| tr("Measured"), contents)
     .hint(hint)
-    .asking(|view, session, studies| studies.harvest(view, session));
+    .asking(|asking| asking.studies.harvest(asking.view, asking.session));
 
 fn hint(context: &Context<'_>) -> String {
     match context.bench.measured.progress() {

@@ -1,11 +1,16 @@
 //! The panels, one file each. They read the view and the session and push commands.
+//!
+//! A panel's file says in its `PANEL` where it stands, what it draws under which title, what it asks the crew, its name in
+//! frames, and whether it can be saved. `view/panel.rs` lists the panels, once, by a macro that hands the list to others:
+//! there it becomes `Panel`, the names that views store and links write, here the modules, and in `list` the way from a name
+//! to its `Spec`. So the view knows names, and nothing of what draws them. Tabs, keys, frames (`parts`), exports and
+//! `app::asking` walk the list. `cargo fmt` does not see modules that a macro declares: the Makefile names their files.
 
 pub(super) mod beam;
 pub(super) mod controls;
 pub(super) mod design;
 pub(super) mod device;
 pub(super) mod embedded;
-pub(super) mod explore;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
 mod frequency;
@@ -17,11 +22,10 @@ pub(super) mod paper;
 mod parameter;
 pub(super) mod parts;
 mod phase_plane;
-mod plots;
+pub(super) mod plots;
 mod share;
 pub(super) mod shortcuts;
 pub(super) mod spec;
-pub(super) mod stability;
 pub(super) mod structure;
 pub(super) mod sweep;
 pub(super) mod tables;
@@ -38,6 +42,8 @@ use super::session::{Session, Shown, Status};
 use super::view::{View, panels};
 use crate::app::text::{fill, tr};
 use crate::export::Format;
+use crate::scheduler::Study;
+use crate::scheduler::lane::Traffic;
 
 macro_rules! files {
     ($($name:ident $file:ident)*) => {
@@ -86,6 +92,12 @@ impl<'a> Context<'a> {
     /// Whether what is shown answers an older question: it is then drawn faintly.
     pub(super) fn is_stale(&self) -> bool {
         self.session.status() != Status::Done
+    }
+
+    /// How far a study of this kind is, or `otherwise`, when none is under way.
+    pub(super) fn computing<S: Study>(&self, otherwise: &str) -> String {
+        let part = self.studies.lanes.lane::<S>().and_then(Traffic::progress);
+        part.map_or_else(|| otherwise.to_owned(), computing)
     }
 
     /// Asks for a file of what the card with this title shows.

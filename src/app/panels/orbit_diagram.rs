@@ -3,37 +3,26 @@
 use egui::{RichText, Ui};
 use egui_plot::{PlotPoint, VLine};
 
-use super::spec::{Place, Spec};
+use super::spec::{Asking, Place, Spec};
 use super::{Context, parameter};
-use crate::app::crew::Studies;
-use crate::app::panels::computing;
 use crate::app::questions;
-use crate::app::session::Session;
 use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
-use crate::app::view::{Tab, View};
+use crate::app::view::Tab;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Motion;
 use crate::dynamics::attractors::sweep::SweepPoint;
 use crate::questions::sweep::{Direction, SweepStudy};
-use crate::scheduler::Study as _;
 
 /// The diagram.
 pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Sweep), |_| tr("Orbit diagram"), diagram)
-    .hint(hint)
+    .hint(|context| context.computing::<SweepStudy>(tr("click to go there")))
     .asking(ask)
     .embedded("orbit", marked("Orbit diagram"));
 
-fn hint(context: &Context<'_>) -> String {
-    match context.studies.lanes.study::<SweepStudy>() {
-        Some(sweep) if !sweep.finished() => computing(sweep.progress()),
-        _ => tr("click to go there").to_owned(),
-    }
-}
-
 /// Asks for the sweep in view.
-pub(super) fn ask(view: &View, session: &Session, studies: &mut Studies) {
+pub(super) fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
     studies.lanes.ask(questions::sweep(view, session), |(scenario, sweep)| {
         Some(SweepStudy::new(scenario, sweep, &[Direction::Up, Direction::Down]))
     });

@@ -4,11 +4,18 @@ use egui::Ui;
 
 use super::grid::{GAP, LEAST_HEIGHT_ALONE, grid, place};
 use super::spec::Place;
-use super::{Context, list};
+use super::{Context, list, verdict};
 use crate::app::command::Command;
 use crate::app::text::tr;
 use crate::app::view::{Panel, Tab};
 use crate::app::widgets::{Card, Icon};
+
+/// The verdict and the plots of the place in view.
+pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+    verdict::show(context, ui);
+    ui.add_space(GAP);
+    cards(context, ui);
+}
 
 /// The panels of the place in view side by side, or the one of them that fills the page.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {

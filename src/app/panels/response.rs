@@ -4,14 +4,13 @@ use egui::Ui;
 use egui_plot::{PlotPoint, VLine};
 
 use super::orbit_diagram::settled;
-use super::spec::{Place, Spec};
+use super::spec::{Asking, Place, Spec};
 use super::{Context, orbit_diagram, parameter};
-use crate::app::crew::{Followed, Studies};
+use crate::app::crew::Followed;
 use crate::app::questions;
-use crate::app::session::Session;
 use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
-use crate::app::view::{Output, Tab, View};
+use crate::app::view::{Output, Tab};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::dynamics::Instability;
@@ -34,10 +33,10 @@ fn hint(context: &Context<'_>) -> String {
     }
 }
 
-fn ask(view: &View, session: &Session, studies: &mut Studies) {
-    orbit_diagram::ask(view, session, studies);
-    let (scenario, sweep) = questions::sweep(view, session);
-    studies.offer(sweep.response(&scenario));
+fn ask(asking: &mut Asking<'_>) {
+    orbit_diagram::ask(asking);
+    let (scenario, sweep) = questions::sweep(asking.view, asking.session);
+    asking.studies.offer(sweep.response(&scenario));
 }
 
 /// What the vertical axis measures, from the numbers of a point.

@@ -35,6 +35,13 @@ impl Place {
     }
 }
 
+/// What is in view, and whom to ask for it.
+pub(in crate::app) struct Asking<'a> {
+    pub view: &'a View,
+    pub session: &'a Session,
+    pub studies: &'a mut Studies,
+}
+
 /// A panel: a card with a title, and what the page has to know of it.
 pub(in crate::app) struct Spec {
     /// Where it stands.
@@ -46,7 +53,7 @@ pub(in crate::app) struct Spec {
     /// Draws what is in the card.
     pub contents: fn(&mut Context<'_>, &mut Ui),
     /// Asks for what it shows; called every frame in which it is in view.
-    pub ask: fn(&View, &Session, &mut Studies),
+    pub ask: fn(&mut Asking<'_>),
     /// Its name in the addresses of frames, and what it is called there, when it can stand in one.
     pub embedded: Option<(&'static str, &'static str)>,
     /// Whether there is a plot in it, which can be saved as a file.
@@ -60,15 +67,7 @@ impl Spec {
         title: fn(&View) -> &'static str,
         contents: fn(&mut Context<'_>, &mut Ui),
     ) -> Self {
-        Self {
-            place,
-            title,
-            hint: |_| String::new(),
-            contents,
-            ask: |_, _, _| {},
-            embedded: None,
-            exports: true,
-        }
+        Self { place, title, hint: |_| String::new(), contents, ask: |_| {}, embedded: None, exports: true }
     }
 
     /// The same with a hint.
@@ -77,7 +76,7 @@ impl Spec {
     }
 
     /// The same, asking for what it shows.
-    pub(super) const fn asking(self, ask: fn(&View, &Session, &mut Studies)) -> Self {
+    pub(super) const fn asking(self, ask: fn(&mut Asking<'_>)) -> Self {
         Self { ask, ..self }
     }
 

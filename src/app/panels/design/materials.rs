@@ -4,7 +4,6 @@ use egui::{Grid, RichText, Ui};
 
 use super::safety;
 use crate::app::command::Command;
-use crate::app::panels::computing;
 use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
 use crate::app::theme;
@@ -15,15 +14,12 @@ use crate::model::limits::Standing;
 use crate::model::materials::Ceramic;
 use crate::questions::design::materials::{MaterialRow, with_ceramic};
 use crate::questions::materials::Fitted;
-use crate::scheduler::{Study as _, Table};
+use crate::scheduler::Table;
 use crate::theory::Resonance;
 
 /// Draws the page.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.lanes.study::<Table<Fitted>>() {
-        Some(table) if !table.finished() => computing(table.progress()),
-        _ => tr("Table 2 and section 5.4").to_owned(),
-    };
+    let hint = context.computing::<Table<Fitted>>(tr("Table 2 and section 5.4"));
     Card::new(tr("Ceramics on this device")).hint(&hint).hugging().show(ui, |ui| {
         choices(context, ui);
         ui.add_space(6.0);

@@ -5,7 +5,7 @@ use egui::{Grid, RichText, Ui};
 use super::beside::LEAST_HEIGHT;
 use crate::app::panels::magnet_force::NAMES;
 use crate::app::panels::spec::Place;
-use crate::app::panels::{Context, computing, grid, list, plots};
+use crate::app::panels::{Context, grid, list, plots};
 use crate::app::text::{fill, motion_in_words, reworded, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
@@ -16,7 +16,7 @@ use crate::questions::design::trust::{
     LAWS, LawError, MomentError, Quantity, TrustEntry, law_error, moment_errors,
 };
 use crate::questions::trust::Entry;
-use crate::scheduler::{Study as _, Table};
+use crate::scheduler::Table;
 use crate::theory::Resonance;
 
 /// The model that stands for the truth.
@@ -161,10 +161,7 @@ fn shade(off: f64, tokens: &theme::Tokens) -> egui::Color32 {
 
 /// The quantity in view over modes and laws.
 fn convergence(context: &mut Context<'_>, ui: &mut Ui) {
-    let hint = match context.studies.lanes.study::<Table<Entry>>() {
-        Some(table) if !table.finished() => computing(table.progress()),
-        _ => String::new(),
-    };
+    let hint = context.computing::<Table<Entry>>("");
     Card::new(tr("Over modes and force laws")).hint(&hint).hugging().show(ui, |ui| {
         choose(context, ui);
         ui.add_space(4.0);
