@@ -100,7 +100,7 @@ impl Scenario {
     /// # Errors
     /// [`ModelError`] naming what is out of range, in SI units or dimensionless; nothing is changed then.
     pub fn set_device(&mut self, device: Device, scaling: ElectricalScaling) -> Result<(), ModelError> {
-        self.parameters = *Parameters::new(device.dimensionless(scaling)?)?;
+        self.parameters = *Parameters::new(device.renumbered(self.parameters, scaling)?)?;
         (self.device, self.scaling, self.version) = (Some(device), scaling, VERSION);
         Ok(())
     }
@@ -127,7 +127,7 @@ impl Scenario {
             match *what {
                 Forgotten::Start => kept.initial = None,
                 Forgotten::Duration => kept.t_end = usual.t_end,
-                Forgotten::Number(parameter, value) => *parameter.get_mut(&mut kept.parameters) = value,
+                Forgotten::Number(parameter, value) => *kept.parameters.get_mut(parameter) = value,
                 Forgotten::Ceramic => {
                     kept.parameters.alpha = 0.0;
                     let base = kept.device.get_or_insert_default();

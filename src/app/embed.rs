@@ -148,12 +148,12 @@ fn collect<'a, T: PartialEq>(
 
 /// The control of this name, which is that of links.
 fn control(word: &str) -> Option<Control> {
-    let number = Parameter::ALL.into_iter().find(|parameter| parameter.field() == word).map(Control::Number);
-    let dimension = || Dimension::ALL.into_iter().find(|dimension| dimension.field() == word);
     match word {
         "modes" => Some(Control::Modes),
         "force" => Some(Control::Force),
-        _ => number.or_else(|| dimension().map(Control::Dimension)),
+        _ => Parameter::named(word)
+            .map(Control::Number)
+            .or_else(|| Dimension::named(word).map(Control::Dimension)),
     }
 }
 

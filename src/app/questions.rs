@@ -63,7 +63,7 @@ pub(super) fn basin(view: &View) -> (Scenario, Basin) {
 pub(super) fn sweep(view: &View, session: &Session) -> (Scenario, Sweep) {
     let SweepView { parameter, count, dwell, .. } = view.sweep;
     let (from, to) = sweep_range(view, session);
-    let anywhere = parameter.get(&ParameterSet::default());
+    let anywhere = ParameterSet::default().get(parameter);
     let scenario = view.scenario.forgetting(&[Forgotten::Duration, Forgotten::Number(parameter, anywhere)]);
     let (direction, shaking) = (Direction::Up, Shaking::Amplitude);
     let (transient, kept) = (dwell.discarded, dwell.kept);
@@ -84,7 +84,7 @@ pub(super) fn sweep_range(view: &View, session: &Session) -> (f64, f64) {
     let (minimum, maximum) = parameter.range();
     let (low, high) = view.sweep.range.unwrap_or_else(|| range_of(view, session, parameter));
     let (low, high) = (low.min(high).clamp(minimum, maximum), low.max(high).clamp(minimum, maximum));
-    let usual = parameter.usual();
+    let usual = parameter.fact().usual;
     let least = LEAST_SPAN * (usual.1 - usual.0);
     if high - low >= least {
         (low, high)
@@ -97,7 +97,7 @@ pub(super) fn sweep_range(view: &View, session: &Session) -> (f64, f64) {
 /// present one, so that it stays while the value moves a little.
 fn range_of(view: &View, session: &Session, parameter: Parameter) -> (f64, f64) {
     let (minimum, maximum) = parameter.range();
-    let value = parameter.get(&view.scenario.parameters);
+    let value = view.scenario.parameters.get(parameter);
     match (parameter, &session.boundaries) {
         (Parameter::Omega, Some(boundaries)) => {
             let (low, high) = boundaries.range(view.map);

@@ -26,11 +26,8 @@ impl Provenance {
     pub fn lines(&self) -> Vec<(String, String)> {
         let mut lines = vec![("program".to_owned(), PROGRAM.to_owned())];
         for parameter in Parameter::ALL {
-            let value = exact(parameter.get(&self.scenario.parameters));
-            lines.push((
-                parameter.field().to_owned(),
-                format!("{value} {}", unit(parameter)).trim_end().to_owned(),
-            ));
+            let value = exact(self.scenario.parameters.get(parameter));
+            lines.push((parameter.field().to_owned(), value + parameter.fact().suffix));
         }
         lines.push(("model".to_owned(), self.model()));
         lines.push(("run".to_owned(), self.run()));
@@ -83,11 +80,7 @@ impl Provenance {
             .map(|dimension| {
                 let value = device.get(*dimension);
                 let value = if value.is_finite() { exact(rounded(value)) } else { "open circuit".to_owned() };
-                let unit = match (dimension, self.scenario.scaling) {
-                    (Dimension::Coupling, ElectricalScaling::AsPrinted) => "N/V",
-                    (Dimension::Coupling, ElectricalScaling::Consistent) => "N m/V",
-                    _ => dimension.unit(),
-                };
+                let unit = self.scenario.scaling.unit(dimension.fact().unit);
                 (dimension.field(), format!("{value} {unit}").trim_end().to_owned())
             })
             .collect();
@@ -104,29 +97,16 @@ impl Provenance {
     /// One line for a figure's caption.
     pub fn caption(&self) -> String {
         let numbers: Vec<String> = Parameter::ALL
-            .iter()
-            .zip(SYMBOLS)
-            .map(|(parameter, symbol)| {
-                let value = super::number::typographic(&exact(parameter.get(&self.scenario.parameters)));
-                format!("{symbol} = {value}")
+            .into_iter()
+            .map(|parameter| {
+                let value = super::number::typographic(&exact(self.scenario.parameters.get(parameter)));
+                format!("{} = {value}", parameter.fact().symbol)
             })
             .collect();
         let notes: String = self.notes.iter().map(|(name, value)| format!("; {name}: {value}")).collect();
         let text = format!("{}; {}; {}{notes}. {PROGRAM}", numbers.join(", "), self.model(), self.run());
         // Lines break between statements only.
         text.replace(" = ", "\u{a0}=\u{a0}").replacen(" mode", "\u{a0}mode", 1)
-    }
-}
-
-/// Symbols of the ten numbers, in their order.
-pub const SYMBOLS: [&str; 10] = ["α", "β", "ω", "c₀", "d", "h", "η", "c", "κ", "θ"];
-
-/// Most of the numbers have no dimension.
-const fn unit(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::C | Parameter::Kappa => "per V^2",
-        Parameter::Theta => "per V",
-        _ => "",
     }
 }
 

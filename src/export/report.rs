@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 
 use super::markup::escape;
 use super::number::{exact, typographic};
-use super::provenance::SYMBOLS;
 use super::{Figure, Provenance, svg};
 use crate::model::Parameter;
 
@@ -24,7 +23,7 @@ pub struct Words {
     /// Heading of the dimensionless numbers.
     pub dimensionless: &'static str,
     /// Names of the parameters, in the order of [`Parameter::ALL`].
-    pub parameters: [&'static str; 10],
+    pub parameters: [&'static str; Parameter::ALL.len()],
     /// Modes and force law.
     pub model: String,
 }
@@ -114,9 +113,10 @@ pub fn html(report: &Report) -> String {
     out.push_str("</table>\n</div>\n</section>\n<section>\n");
     heading(&mut out, report.words.dimensionless);
     out.push_str("<table>\n");
-    for ((parameter, symbol), name) in Parameter::ALL.iter().zip(SYMBOLS).zip(report.words.parameters) {
-        let value = parameter.get(&report.provenance.scenario.parameters);
-        row(&mut out, name, symbol, &typographic(&exact(value)));
+    for (parameter, name) in Parameter::ALL.into_iter().zip(report.words.parameters) {
+        let value = typographic(&exact(report.provenance.scenario.parameters.get(parameter)));
+        let fact = parameter.fact();
+        row(&mut out, name, fact.symbol, format!("{value} {}", fact.shown.0).trim_end());
     }
     out.push_str("</table>\n");
     paragraph(&mut out, " class=\"weak\"", &report.words.model);

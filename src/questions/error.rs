@@ -110,5 +110,5 @@ fn range(path: &str) -> Option<(f64, f64)> {
     let path = path.strip_suffix(".from").or_else(|| path.strip_suffix(".to")).unwrap_or(path);
     let name = path.rsplit('.').next().unwrap_or_default();
     let name = name.split('[').next().unwrap_or_default();
-    Parameter::ALL.iter().find(|parameter| parameter.field() == name).map(|parameter| parameter.range())
+    Parameter::named(name).map(Parameter::range)
 }

@@ -42,10 +42,10 @@ impl Coordinate {
 
     /// The coordinate of that name, if a model of `modes` modes has it.
     pub fn named(name: &str, modes: usize) -> Option<Self> {
-        let starts = (0..state_dimension(modes)).map(Self::Start);
-        let parameters = Parameter::ALL.into_iter().map(Self::Parameter);
-        let dimensions = Dimension::ALL.into_iter().map(Self::Dimension);
-        starts.chain(parameters).chain(dimensions).find(|coordinate| coordinate.name(modes) == name)
+        let start = (0..state_dimension(modes)).map(Self::Start).find(|start| start.name(modes) == name);
+        start
+            .or_else(|| Parameter::named(name).map(Self::Parameter))
+            .or_else(|| Dimension::named(name).map(Self::Dimension))
     }
 
     /// Lowest and highest value on it: the own range of a parameter or a dimension; ten beam lengths for a displacement,
@@ -53,7 +53,7 @@ impl Coordinate {
     pub fn limits(self, modes: usize) -> (f64, f64) {
         let most = match self {
             Self::Parameter(parameter) => return parameter.range(),
-            Self::Dimension(dimension) => return dimension.accepted(),
+            Self::Dimension(dimension) => return dimension.range(),
             Self::Start(i) if i < modes => ESCAPE_DISPLACEMENT,
             Self::Start(i) if i < 2 * modes => MOST_VELOCITY,
             Self::Start(_) => MOST_VOLTAGE,
@@ -64,7 +64,7 @@ impl Coordinate {
     /// Its value in `scenario`; `None` where that has no device.
     pub fn value(self, scenario: &Scenario) -> Option<f64> {
         match self {
-            Self::Parameter(parameter) => Some(parameter.get(&scenario.parameters)),
+            Self::Parameter(parameter) => Some(scenario.parameters.get(parameter)),
             Self::Dimension(dimension) => scenario.device().ok().map(|device| device.get(dimension)),
             Self::Start(i) => scenario.initial.as_ref().map_or(Some(0.0), |start| start.get(i).copied()),
         }
@@ -106,7 +106,7 @@ pub fn at_place(
     let mut scenario = scenario.clone();
     for (coordinate, value) in coordinates.iter().zip(values) {
         match *coordinate {
-            Coordinate::Parameter(parameter) => *parameter.get_mut(&mut scenario.parameters) = *value,
+            Coordinate::Parameter(parameter) => *scenario.parameters.get_mut(parameter) = *value,
             Coordinate::Dimension(dimension) => {
                 let mut device = scenario.device()?;
                 *device.get_mut(dimension) = *value;
@@ -186,7 +186,7 @@ impl MotionPlane {
         }
         for (coordinate, value) in sides.into_iter().zip(place).filter(|_| !in_si) {
             match coordinate {
-                Coordinate::Parameter(parameter) => *parameter.get_mut(&mut set) = value,
+                Coordinate::Parameter(parameter) => *set.get_mut(parameter) = value,
                 Coordinate::Dimension(_) => {}
                 Coordinate::Start(i) => {
                     coordinate.check(self.scenario.model.modes, (value, value))?;

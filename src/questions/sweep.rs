@@ -129,7 +129,7 @@ impl Question for Sweep {
     fn answer(&self, mut scenario: Scenario, budget: &Budget<'_>) -> Result<SweepAnswer, RequestError> {
         self.check()?;
         count("count times kept", self.count * self.kept, (1, MOST_STROBES))?;
-        *self.parameter.get_mut(&mut scenario.parameters) = self.from;
+        *scenario.parameters.get_mut(self.parameter) = self.from;
         system(&scenario)?;
         let mut study = SweepStudy::new(scenario.clone(), self.clone(), &[self.direction]);
         complete_within(&mut study, budget);

@@ -232,7 +232,7 @@ proptest! {
         };
         for parameter in Parameter::ALL {
             let (low, high) = parameter.range();
-            prop_assert!((low..=high).contains(&parameter.get(&set)));
+            prop_assert!((low..=high).contains(&set.get(parameter)));
         }
         let Ok(system) = system(set, modes) else { return Ok(()) };
         let values = eigenvalues(&system).map_err(|error| TestCaseError::fail(error.to_string()))?;

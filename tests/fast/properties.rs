@@ -37,7 +37,7 @@ impl Random {
         match self.below(12) {
             0 => low,
             1 => high,
-            2 | 3 => parameter.get(&ParameterSet::default()),
+            2 | 3 => ParameterSet::default().get(parameter),
             4 => self.between(low, high),
             _ if parameter == Parameter::C0 => self.sign() * self.log_between(1e-6, high),
             _ => self.log_between(low.max(1e-7 * high), high),
@@ -55,7 +55,7 @@ impl Random {
     fn scenario(&mut self) -> Scenario {
         let mut parameters = ParameterSet::default();
         for parameter in Parameter::ALL {
-            *parameter.get_mut(&mut parameters) = self.value(parameter);
+            *parameters.get_mut(parameter) = self.value(parameter);
         }
         let modes = 1 + self.below(MAX_MODES);
         let initial = (self.below(3) > 0).then(|| {

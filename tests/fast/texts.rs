@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use harvester_lab::app::fonts::{self, regular};
 use harvester_lab::app::lessons::LessonId;
 use harvester_lab::app::text::page;
+use harvester_lab::model::{Dimension, Parameter};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::Lit;
 
@@ -72,6 +73,12 @@ fn said() -> BTreeMap<String, String> {
     for file in files {
         let code = read(&file).parse().unwrap_or_else(|error| panic!("{}: {error}", file.display()));
         said.extend(texts(code).into_iter().map(|text| (text, file.display().to_string())));
+    }
+    let facts = Parameter::ALL.map(Parameter::fact).into_iter().chain(Dimension::ALL.map(Dimension::fact));
+    for fact in facts {
+        said.extend(
+            [fact.name, fact.title, fact.explanation].map(|text| (text.to_owned(), fact.field.to_owned())),
+        );
     }
     assert!(said.len() > 700, "only {} texts were found", said.len());
     said

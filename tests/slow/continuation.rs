@@ -114,7 +114,7 @@ fn every_parameter_can_be_followed_to_its_border() -> TestResult {
             assert_eq!(last.value, border);
             // The orbit of the system made there directly.
             let mut set = *system.parameters;
-            *parameter.get_mut(&mut set) = border;
+            *set.get_mut(parameter) = border;
             let there = ReducedSystem::new(Parameters::new(set)?, 2, ForceLaw::Exact)?;
             let orbit = Orbit::find(&there, None, 1)?;
             assert!((orbit.measures.v_rms - last.measures.v_rms).abs() < 1e-7, "{parameter:?} {upwards}");

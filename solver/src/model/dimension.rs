@@ -1,160 +1,142 @@
-//! The dimensions of a device by name: what a user edits, with unit and range, and the coordinates of SI charts.
+//! A harvester in SI units: its dimensions, a row each, with what a user edits and the coordinates of SI charts need.
 
-use serde::{Deserialize, Serialize};
-
+use super::fact::{Fact, Part, Scale, numbers};
+use super::materials::Ceramic;
 use super::{ModelError, Parameter};
-
-/// Which dimension of a [`super::Device`].
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum Dimension {
-    /// Residual flux density rho.
-    FluxDensity,
-    /// Permeability mu.
-    Permeability,
-    /// Length H of each magnet.
-    MagnetLength,
-    /// Radius R of each magnet.
-    MagnetRadius,
-    /// Common area S of the magnets.
-    MagnetArea,
-    /// Distance D of the magnets before the beam sags.
-    MagnetDistance,
-    /// Length L of the beam.
-    BeamLength,
-    /// Mass m_b of the beam.
-    BeamMass,
-    /// Mass m_t at the tip.
-    TipMass,
-    /// Young's modulus E.
-    YoungsModulus,
-    /// Second moment of area I.
-    SecondMoment,
-    /// Kelvin-Voigt viscosity Lambda.
-    Viscosity,
-    /// Acceleration of gravity g.
-    Gravity,
-    /// Capacitance C_eq.
-    Capacitance,
-    /// Load resistance R_eq.
-    Resistance,
-    /// Electromechanical coupling Theta.
-    Coupling,
-    /// Amplitude B of the base motion.
-    BaseAmplitude,
-    /// Frequency of the base motion.
-    Frequency,
-    /// Thickness of the ceramic layer.
-    CeramicThickness,
-    /// Dielectric dissipation factor of the ceramic.
-    LossTangent,
-}
-
-/// What is fixed about a dimension.
-struct Entry {
-    field: &'static str,
-    /// With a leading blank, empty when dimensionless.
-    unit: &'static str,
-    accepted: (f64, f64),
-    usual: (f64, f64),
-    logarithmic: bool,
-}
-
-const fn entry(
-    field: &'static str,
-    unit: &'static str,
-    accepted: (f64, f64),
-    usual: (f64, f64),
-    logarithmic: bool,
-) -> Entry {
-    Entry { field, unit, accepted, usual, logarithmic }
-}
 
 /// Accepted where zero would make no sense, and where it does.
 const POSITIVE: (f64, f64) = (1e-15, 1e15);
 const NOT_NEGATIVE: (f64, f64) = (0.0, 1e15);
 
+numbers! {
+    /// A harvester and its excitation in SI units (Table 1 and section 3.2).
+    set Device,
+    /// Which dimension of a [`Device`].
+    named by Dimension
+
+    FluxDensity flux_density ["T"] = 1.1,
+    "Residual flux density of the magnets." {
+        symbol: "ρ", name: "Flux density", title: "residual flux density", part: Part::Magnets,
+        range: NOT_NEGATIVE, usual: (0.0, 1.5), shown: ("T", 1.0),
+    }
+    Permeability permeability ["H/m"] = 1.256e-6,
+    "Permeability of the air between them." {
+        symbol: "μ", name: "Permeability", title: "permeability of air", part: Part::Magnets, order: 1,
+        range: POSITIVE, usual: (1.2e-6, 1.3e-6), shown: ("µH/m", 1e6),
+    }
+    MagnetLength magnet_length ["m"] = 0.002,
+    "Length of each magnet." {
+        symbol: "H", name: "Length", title: "length of a magnet", part: Part::Magnets,
+        range: POSITIVE, usual: (5e-4, 0.02), shown: ("mm", 1e3),
+    }
+    MagnetRadius magnet_radius ["m"] = 0.004,
+    "Radius of each magnet." {
+        symbol: "R", name: "Radius", title: "radius of a magnet", part: Part::Magnets,
+        range: NOT_NEGATIVE, usual: (5e-4, 0.02), shown: ("mm", 1e3),
+    }
+    MagnetArea magnet_area ["m^2"] = 5.0265e-5,
+    "Common area of the magnets." {
+        symbol: "S", name: "Area", title: "common area of the magnets", part: Part::Magnets,
+        range: NOT_NEGATIVE, usual: (1e-7, 1.3e-3), scale: Scale::Logarithmic, shown: ("mm²", 1e6),
+    }
+    + /// Whether the magnets repel (as in the paper) or attract.
+      repelling: bool = true;
+    MagnetDistance magnet_distance ["m"] = 0.3385,
+    "Distance of the magnets before the beam sags." {
+        symbol: "D", name: "Distance", title: "distance of the magnets", part: Part::Magnets, order: -1,
+        range: POSITIVE, usual: (5e-3, 1.0), scale: Scale::Logarithmic, shown: ("mm", 1e3),
+    }
+    BeamLength beam_length ["m"] = 0.48,
+    "Length of the cantilever." {
+        symbol: "L", name: "Length", title: "length of the cantilever", part: Part::Beam,
+        range: POSITIVE, usual: (0.02, 1.0), scale: Scale::Logarithmic, shown: ("mm", 1e3),
+    }
+    BeamMass beam_mass ["kg"] = 2.56e-2,
+    "Mass of the cantilever." {
+        symbol: "m_b", name: "Mass", title: "mass of the cantilever", part: Part::Beam,
+        range: POSITIVE, usual: (1e-4, 1.0), scale: Scale::Logarithmic, shown: ("g", 1e3),
+    }
+    TipMass tip_mass ["kg"] = 5.12e-4,
+    "Mass at the tip, magnet included." {
+        symbol: "m_t", name: "Tip mass", title: "mass at the tip", part: Part::Beam,
+        range: NOT_NEGATIVE, usual: (0.0, 0.1), scale: Scale::LogarithmicFrom(1e-5), shown: ("g", 1e3),
+    }
+    YoungsModulus youngs_modulus ["Pa"] = 3.81e10,
+    "Young's modulus of the beam." {
+        symbol: "E", name: "Modulus", title: "Young's modulus", part: Part::Beam,
+        range: POSITIVE, usual: (1e9, 4e11), scale: Scale::Logarithmic, shown: ("GPa", 1e-9),
+    }
+    SecondMoment second_moment ["m^4"] = 3.6e-13,
+    "Second moment of area of its section." {
+        symbol: "I", name: "2nd moment", title: "second moment of area", part: Part::Beam,
+        range: (1e-24, 1e15), usual: (1e-16, 1e-9), scale: Scale::Logarithmic, shown: ("mm⁴", 1e12),
+    }
+    Viscosity viscosity ["Pa s"] = 1.7310e7,
+    "Kelvin-Voigt viscosity of the beam: its damping." {
+        symbol: "Λ", name: "Viscosity", title: "viscosity", part: Part::Beam,
+        range: NOT_NEGATIVE, usual: (0.0, 1e8), scale: Scale::LogarithmicFrom(1e4), shown: ("MPa s", 1e-6),
+    }
+    Gravity gravity ["m/s^2"]
+    // As printed: standard gravity, rounded.
+    = 9.8067,
+    "Acceleration of gravity, which makes the beam sag." {
+        symbol: "g", name: "Gravity", title: "gravity", part: Part::Beam,
+        range: NOT_NEGATIVE, usual: (0.0, 25.0), shown: ("m/s²", 1.0),
+    }
+    Capacitance capacitance ["F"] = 5.9531e-8,
+    "Capacitance C_eq of the ceramic." {
+        symbol: "C_eq", name: "Capacity", title: "capacitance", part: Part::Circuit,
+        range: POSITIVE, usual: (1e-11, 1e-5), scale: Scale::Logarithmic, shown: ("nF", 1e9),
+    }
+    /// Infinite, and null in JSON, for an open circuit.
+    #[serde(with = "super::open_circuit")]
+    Resistance resistance ["ohm"] = 7_631_732.0,
+    "Load resistance R_eq." {
+        symbol: "R_eq", name: "Load", title: "load resistance", part: Part::Circuit, order: -1,
+        range: POSITIVE, usual: (100.0, 1e10), scale: Scale::Logarithmic, shown: ("MΩ", 1e-6),
+    }
+    Coupling coupling ["N/V or N m/V"] = 1.1906e-5,
+    "Electromechanical coupling." {
+        symbol: "Θ", name: "Coupling", title: "electromechanical coupling", part: Part::Circuit,
+        range: NOT_NEGATIVE, usual: (0.0, 0.01), scale: Scale::LogarithmicFrom(1e-6),
+        shown: ("µN/V or µN m/V", 1e6),
+    }
+    BaseAmplitude base_amplitude ["m"] = 4.8e-4,
+    "Amplitude of the base's motion." {
+        symbol: "B", name: "Amplitude", title: "excitation amplitude", part: Part::Main, order: 1,
+        range: NOT_NEGATIVE, usual: (0.0, 0.02), scale: Scale::LogarithmicFrom(1e-6), shown: ("mm", 1e3),
+    }
+    Frequency frequency ["Hz"]
+    // That of omega = 25 follows from the others.
+    = 0.0,
+    "Frequency of the base's motion." {
+        symbol: "f", name: "Frequency", title: "excitation frequency", part: Part::Main,
+        range: POSITIVE, usual: (0.1, 1000.0), scale: Scale::Logarithmic, shown: ("Hz", 1.0),
+    }
+    // The paper calls it extremely thin and prints none.
+    CeramicThickness ceramic_thickness ["m"] = 2e-4,
+    "Thickness of the ceramic, which decides what voltage it bears." {
+        name: "Thickness", title: "thickness of the ceramic", part: Part::Ceramic,
+        range: (1e-9, 1.0), usual: (1e-5, 5e-3), scale: Scale::Logarithmic, shown: ("mm", 1e3),
+    }
+    // 0 in the paper's model.
+    LossTangent loss_tangent [""] = 0.0,
+    "Dielectric dissipation factor of the ceramic: a conductance beside the load." {
+        symbol: "tan δ", name: "Loss", title: "dielectric loss", part: Part::Ceramic,
+        range: (0.0, 1.0), usual: (0.0, 0.1), shown: ("%", 1e2),
+    }
+    + /// The ceramic, where one is chosen; the paper names none for its device.
+      ceramic: Option<Ceramic> = None;
+}
+
+impl Default for Device {
+    /// Table 1 and section 3.2, excited as in Figure 3.
+    fn default() -> Self {
+        Self { frequency: 25.0 / (std::f64::consts::TAU * Self::PRINTED.time_unit()), ..Self::PRINTED }
+    }
+}
+
 impl Dimension {
-    /// All of them, in the order of [`super::Device`].
-    pub const ALL: [Self; 20] = [
-        Self::FluxDensity,
-        Self::Permeability,
-        Self::MagnetLength,
-        Self::MagnetRadius,
-        Self::MagnetArea,
-        Self::MagnetDistance,
-        Self::BeamLength,
-        Self::BeamMass,
-        Self::TipMass,
-        Self::YoungsModulus,
-        Self::SecondMoment,
-        Self::Viscosity,
-        Self::Gravity,
-        Self::Capacitance,
-        Self::Resistance,
-        Self::Coupling,
-        Self::BaseAmplitude,
-        Self::Frequency,
-        Self::CeramicThickness,
-        Self::LossTangent,
-    ];
-
-    const fn entry(self) -> Entry {
-        match self {
-            Self::FluxDensity => entry("flux_density", " T", NOT_NEGATIVE, (0.0, 1.5), false),
-            Self::Permeability => entry("permeability", " H/m", POSITIVE, (1.2e-06, 1.3e-06), false),
-            Self::MagnetLength => entry("magnet_length", " m", POSITIVE, (0.0005, 0.02), false),
-            Self::MagnetRadius => entry("magnet_radius", " m", NOT_NEGATIVE, (0.0005, 0.02), false),
-            Self::MagnetArea => entry("magnet_area", " m^2", NOT_NEGATIVE, (1e-07, 0.0013), true),
-            Self::MagnetDistance => entry("magnet_distance", " m", POSITIVE, (0.005, 1.0), true),
-            Self::BeamLength => entry("beam_length", " m", POSITIVE, (0.02, 1.0), true),
-            Self::BeamMass => entry("beam_mass", " kg", POSITIVE, (0.0001, 1.0), true),
-            Self::TipMass => entry("tip_mass", " kg", NOT_NEGATIVE, (0.0, 0.1), false),
-            Self::YoungsModulus => {
-                entry("youngs_modulus", " Pa", POSITIVE, (1000000000.0, 400000000000.0), true)
-            }
-            Self::SecondMoment => {
-                entry("second_moment", " m^4", (1e-24, 1000000000000000.0), (1e-16, 1e-09), true)
-            }
-            Self::Viscosity => entry("viscosity", " Pa s", NOT_NEGATIVE, (0.0, 100000000.0), false),
-            Self::Gravity => entry("gravity", " m/s^2", NOT_NEGATIVE, (0.0, 25.0), false),
-            Self::Capacitance => entry("capacitance", " F", POSITIVE, (1e-11, 1e-05), true),
-            Self::Resistance => entry("resistance", " ohm", POSITIVE, (100.0, 10000000000.0), true),
-            Self::Coupling => entry("coupling", " N/V or N m/V", NOT_NEGATIVE, (0.0, 0.01), false),
-            Self::BaseAmplitude => entry("base_amplitude", " m", NOT_NEGATIVE, (0.0, 0.02), false),
-            Self::Frequency => entry("frequency", " Hz", POSITIVE, (0.1, 1000.0), true),
-            Self::CeramicThickness => entry("ceramic_thickness", " m", (1e-09, 1.0), (1e-05, 0.005), true),
-            Self::LossTangent => entry("loss_tangent", "", (0.0, 1.0), (0.0, 0.1), false),
-        }
-    }
-
-    /// Name of the field in requests, files and error messages.
-    pub const fn field(self) -> &'static str {
-        self.entry().field
-    }
-
-    /// Its SI unit; empty when dimensionless.
-    pub fn unit(self) -> &'static str {
-        self.entry().unit.trim_start()
-    }
-
-    /// Smallest and largest value a slider should offer, in the field's unit. Wider values are accepted.
-    pub const fn usual(self) -> (f64, f64) {
-        self.entry().usual
-    }
-
-    /// Whether a slider over [`Self::usual`] should be logarithmic.
-    pub const fn logarithmic(self) -> bool {
-        self.entry().logarithmic
-    }
-
-    /// Smallest and largest accepted value, in the field's unit: anything that has the right sign and can be computed.
-    pub const fn accepted(self) -> (f64, f64) {
-        self.entry().accepted
-    }
-
     /// Checks a value.
     ///
     /// # Errors
@@ -163,12 +145,12 @@ impl Dimension {
         if self == Self::Resistance && value == f64::INFINITY {
             return Ok(value);
         }
-        let Entry { field, unit, accepted, .. } = self.entry();
-        ModelError::check(field, value, accepted, unit)
+        let Fact { field, suffix, range, .. } = *self.fact();
+        ModelError::check(field, value, range, suffix)
     }
 
     /// The one of the ten numbers that decides this dimension of a device, the others given (Eq. 8); `None` where they
-    /// leave it open (see [`super::Device::from_parameters`]).
+    /// leave it open (see [`Device::from_parameters`]).
     pub const fn decided_by(self) -> Option<Parameter> {
         match self {
             Self::Viscosity => Some(Parameter::Alpha),
@@ -183,10 +165,5 @@ impl Dimension {
             Self::Coupling => Some(Parameter::Theta),
             _ => None,
         }
-    }
-
-    /// The dimension of this field name.
-    pub fn named(field: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|dimension| dimension.field() == field)
     }
 }

@@ -1,170 +1,74 @@
-//! The ten dimensionless numbers of the model, their ranges, and the one place where raw input becomes valid.
+//! The dimensionless numbers of the model, a row each, and the one place where raw input becomes valid.
 
 use std::ops::Deref;
 
-use serde::{Deserialize, Serialize};
-
 use super::ModelError;
+use super::fact::{Fact, Part, Scale, numbers};
 
-/// The ten dimensionless numbers as typed, loaded or dragged: not yet checked. Missing fields of a file or a
-/// request take the paper's values.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
-#[serde(default, deny_unknown_fields)]
-pub struct ParameterSet {
-    /// Kelvin-Voigt damping (dimensionless).
-    pub alpha: f64,
-    /// Excitation amplitude B/L (dimensionless).
-    pub beta: f64,
-    /// Excitation angular frequency (dimensionless).
-    pub omega: f64,
-    /// Magnet strength (dimensionless); negative when the magnets attract, 0 without magnets.
-    pub c0: f64,
-    /// Gap between the magnets after the sag under gravity, in beam lengths.
-    pub d: f64,
-    /// Length of a magnet, in beam lengths.
-    pub h: f64,
-    /// Tip mass over beam mass (dimensionless).
-    pub eta: f64,
-    /// Capacitance (dimensionless, per volt squared).
-    pub c: f64,
-    /// Load conductance (dimensionless, per volt squared).
-    pub kappa: f64,
-    /// Electromechanical coupling (dimensionless, per volt).
-    pub theta: f64,
+numbers! {
+    /// The dimensionless numbers as typed, loaded or dragged: not yet checked. Missing fields of a file or a request take
+    /// the paper's values.
+    set ParameterSet,
+    /// Which of the dimensionless numbers.
+    named by Parameter
+
+    Alpha alpha [""] = 1e-3,
+    "Kelvin-Voigt damping of the beam's material: the higher a mode, the more it takes." {
+        symbol: "α", name: "Damping", title: "damping", part: Part::Main,
+        range: (0.0, 0.1), scale: Scale::LogarithmicFrom(1e-6),
+    }
+    Beta beta [""] = 1e-3,
+    "Amplitude of the base's motion, in beam lengths." {
+        symbol: "β", name: "Excitation", title: "excitation amplitude", part: Part::Main,
+        range: (0.0, 0.2), scale: Scale::LogarithmicFrom(1e-5),
+    }
+    Omega omega [""] = 25.0,
+    "Angular frequency of the base's motion, in units of √(EI / m_b L³)." {
+        symbol: "ω", name: "Frequency", title: "excitation frequency", part: Part::Main,
+        range: (0.1, 500.0), usual: (0.5, 50.0),
+    }
+    C0 c0 [""] = 0.5084,
+    "Magnet strength: positive repels, negative attracts, 0 is no magnet." {
+        symbol: "c₀", name: "Strength", title: "magnet strength", part: Part::Magnets,
+        range: (-10.0, 10.0),
+    }
+    D d [""] = 0.15,
+    "Distance of the magnets with the beam sagged but unbent by them, in beam lengths." {
+        symbol: "d", name: "Gap", title: "gap", part: Part::Magnets,
+        // Magnets far away, as on a short beam, are merely weak.
+        range: (0.01, 100.0), usual: (0.01, 2.0), scale: Scale::Logarithmic,
+    }
+    H h [""] = 0.004167,
+    "Length of each magnet, in beam lengths." {
+        symbol: "h", name: "Length", title: "magnet length", part: Part::Magnets,
+        range: (1e-5, 1.0), scale: Scale::Logarithmic,
+    }
+    Eta eta [""] = 0.02,
+    "Mass at the tip over the mass of the beam." {
+        symbol: "η", name: "Tip mass", title: "tip mass", part: Part::Beam,
+        range: (0.0, 100.0), scale: Scale::LogarithmicFrom(1e-3),
+    }
+    C c ["per V^2"] = 1e-6,
+    "Capacitance of the ceramic, times one volt squared." {
+        symbol: "c", name: "Capacitance", title: "capacitance", part: Part::Circuit, shown: ("V⁻²", 1.0),
+        range: (1e-9, 1e-2), scale: Scale::Logarithmic,
+    }
+    Kappa kappa ["per V^2"] = 1e-6,
+    "Conductance of the load, times one volt squared: large κ is a small resistance." {
+        symbol: "κ", name: "Load", title: "load conductance", part: Part::Circuit, shown: ("V⁻²", 1.0),
+        range: (0.0, 1e-2), scale: Scale::LogarithmicFrom(1e-9),
+    }
+    Theta theta ["per V"] = 2e-4,
+    "Electromechanical coupling: bending moment of one volt." {
+        symbol: "θ", name: "Coupling", title: "coupling", part: Part::Circuit, shown: ("V⁻¹", 1.0),
+        range: (0.0, 1e-2), scale: Scale::LogarithmicFrom(1e-6),
+    }
 }
 
 impl Default for ParameterSet {
     /// The paper's working set (section 3.2), with its stable excitation omega = 25.
     fn default() -> Self {
-        Self {
-            alpha: 1e-3,
-            beta: 1e-3,
-            omega: 25.0,
-            c0: 0.5084,
-            d: 0.15,
-            h: 0.004167,
-            eta: 0.02,
-            c: 1e-6,
-            kappa: 1e-6,
-            theta: 2e-4,
-        }
-    }
-}
-
-/// Which of the ten numbers.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin,
-)]
-#[serde(rename_all = "lowercase")]
-pub enum Parameter {
-    /// Damping.
-    Alpha,
-    /// Excitation amplitude.
-    Beta,
-    /// Excitation frequency.
-    Omega,
-    /// Magnet strength.
-    C0,
-    /// Gap.
-    D,
-    /// Magnet length.
-    H,
-    /// Tip mass ratio.
-    Eta,
-    /// Capacitance.
-    C,
-    /// Load conductance.
-    Kappa,
-    /// Coupling.
-    Theta,
-}
-
-impl Parameter {
-    /// All ten, in the order of [`ParameterSet`].
-    pub const ALL: [Self; 10] = [
-        Self::Alpha,
-        Self::Beta,
-        Self::Omega,
-        Self::C0,
-        Self::D,
-        Self::H,
-        Self::Eta,
-        Self::C,
-        Self::Kappa,
-        Self::Theta,
-    ];
-
-    /// Name of the field in requests, files and error messages.
-    pub const fn field(self) -> &'static str {
-        match self {
-            Self::Alpha => "alpha",
-            Self::Beta => "beta",
-            Self::Omega => "omega",
-            Self::C0 => "c0",
-            Self::D => "d",
-            Self::H => "h",
-            Self::Eta => "eta",
-            Self::C => "c",
-            Self::Kappa => "kappa",
-            Self::Theta => "theta",
-        }
-    }
-
-    /// Smallest and largest accepted value (dimensionless).
-    pub const fn range(self) -> (f64, f64) {
-        match self {
-            Self::Alpha => (0.0, 0.1),
-            Self::Beta => (0.0, 0.2),
-            Self::Omega => (0.1, 500.0),
-            Self::C0 => (-10.0, 10.0),
-            // Magnets far away, as on a short beam, are merely weak.
-            Self::D => (0.01, 100.0),
-            Self::H => (1e-5, 1.0),
-            Self::Eta => (0.0, 100.0),
-            Self::C => (1e-9, 1e-2),
-            Self::Kappa => (0.0, 1e-2),
-            Self::Theta => (0.0, 1e-2),
-        }
-    }
-
-    /// Smallest and largest value a slider should offer (dimensionless). Wider values may be accepted.
-    pub const fn usual(self) -> (f64, f64) {
-        match self {
-            Self::D => (0.01, 2.0),
-            _ => self.range(),
-        }
-    }
-
-    /// The value of this number in `set`.
-    pub const fn get(self, set: &ParameterSet) -> f64 {
-        match self {
-            Self::Alpha => set.alpha,
-            Self::Beta => set.beta,
-            Self::Omega => set.omega,
-            Self::C0 => set.c0,
-            Self::D => set.d,
-            Self::H => set.h,
-            Self::Eta => set.eta,
-            Self::C => set.c,
-            Self::Kappa => set.kappa,
-            Self::Theta => set.theta,
-        }
-    }
-
-    /// The place of this number in `set`, to write to.
-    pub const fn get_mut(self, set: &mut ParameterSet) -> &mut f64 {
-        match self {
-            Self::Alpha => &mut set.alpha,
-            Self::Beta => &mut set.beta,
-            Self::Omega => &mut set.omega,
-            Self::C0 => &mut set.c0,
-            Self::D => &mut set.d,
-            Self::H => &mut set.h,
-            Self::Eta => &mut set.eta,
-            Self::C => &mut set.c,
-            Self::Kappa => &mut set.kappa,
-            Self::Theta => &mut set.theta,
-        }
+        Self::PRINTED
     }
 }
 
@@ -172,7 +76,7 @@ impl Parameter {
 /// is a hundred orders of magnitude below what rounding leaves of one of the size of the gap.
 pub const NEGLIGIBLE: f64 = 1e-120;
 
-/// Ten dimensionless numbers that are finite and in range. The fields are read through [`Deref`]; there is no way
+/// Dimensionless numbers that are finite and in range. The fields are read through [`Deref`]; there is no way
 /// to change one without passing [`Parameters::new`] again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameters(ParameterSet);
@@ -185,11 +89,11 @@ impl Parameters {
     /// [`ModelError::NotFinite`] or [`ModelError::OutOfRange`] for the first number that fails.
     pub fn new(mut set: ParameterSet) -> Result<Self, ModelError> {
         for parameter in Parameter::ALL {
-            let value = parameter.get_mut(&mut set);
+            let value = set.get_mut(parameter);
             if value.abs() < NEGLIGIBLE {
                 *value = 0.0;
             }
-            ModelError::check(parameter.field(), parameter.get(&set), parameter.range(), "")?;
+            ModelError::check(parameter.field(), set.get(parameter), parameter.range(), "")?;
         }
         Ok(Self(set))
     }
@@ -243,13 +147,14 @@ mod tests {
     fn every_number_is_read_and_written_in_its_own_place() {
         for parameter in Parameter::ALL {
             let mut set = ParameterSet::default();
-            *parameter.get_mut(&mut set) = 0.0123;
-            assert_eq!(parameter.get(&set), 0.0123);
+            *set.get_mut(parameter) = 0.0123;
+            assert_eq!(set.get(parameter), 0.0123);
             let changed = Parameter::ALL
                 .iter()
-                .filter(|other| other.get(&set) != other.get(&ParameterSet::default()))
+                .filter(|other| set.get(**other) != ParameterSet::default().get(**other))
                 .count();
             assert_eq!(changed, 1);
+            assert_eq!(serde_json::to_value(parameter).expect("a name"), parameter.field());
         }
     }
 }

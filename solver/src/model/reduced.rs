@@ -193,7 +193,7 @@ mod tests {
         let base = system(3, ForceLaw::Exact);
         for parameter in crate::model::Parameter::ALL {
             let mut set = *base.parameters;
-            *parameter.get_mut(&mut set) *= 1.1;
+            *set.get_mut(parameter) *= 1.1;
             let (changed, made) =
                 (base.with_numbers(set)?, ReducedSystem::new(Parameters::new(set)?, 3, base.law)?);
             assert_eq!(changed.parameters, made.parameters);

@@ -21,7 +21,7 @@ impl Shaking {
     /// `set` with `parameter` at `value`, shaken as before.
     pub fn at(self, set: &ParameterSet, parameter: Parameter, value: f64) -> ParameterSet {
         let mut moved = *set;
-        *parameter.get_mut(&mut moved) = value;
+        *moved.get_mut(parameter) = value;
         if self == Self::Acceleration && parameter == Parameter::Omega {
             moved.beta = set.beta * (set.omega / value).powi(2);
         }

@@ -7,7 +7,7 @@ use crate::app::view::View;
 use crate::app::view::design::{Aim, Side};
 use crate::app::widgets::number::round_significant;
 
-use crate::model::{Dimension, Parameter, Shaking};
+use crate::model::{Dimension, Parameter, ParameterSet, Scale, Shaking};
 use crate::questions::checks::Span;
 use crate::questions::design::find::{FindQuestion, Objective, Variable};
 use crate::questions::harvest::Harvest;
@@ -107,7 +107,7 @@ pub(in crate::app) fn trust(view: &View) -> Table<Entry> {
 /// The best frequency of a few loads.
 pub(in crate::app) fn best_frequencies(view: &View, session: &Session, loads: &LoadStudy) -> Table<BestAt> {
     let window = window(view, session);
-    let kappa = Parameter::Kappa.get(&Default::default());
+    let kappa = ParameterSet::default().get(Parameter::Kappa);
     let scenario = at_the_beginning(view, window).forgetting(&[Forgotten::Number(Parameter::Kappa, kappa)]);
     let (shaking, limits) = (shaking(view), bench::limits(view));
     let piece = |resistance: &f64| {
@@ -119,9 +119,9 @@ pub(in crate::app) fn best_frequencies(view: &View, session: &Session, loads: &L
 
 /// The range of a side of the map (in SI units): as chosen, or about a round value near the present one.
 pub(in crate::app) fn range_of(view: &View, session: &Session, side: &Side) -> (f64, f64) {
-    let (least, most) = side.dimension.accepted();
+    let (least, most) = side.dimension.range();
     let (low, high) = side.range.unwrap_or_else(|| {
-        let (usual_low, usual_high) = side.dimension.usual();
+        let (usual_low, usual_high) = side.dimension.fact().usual;
         let device = view.scenario.device().unwrap_or_default();
         let value = device.get(side.dimension);
         match side.dimension {
@@ -144,7 +144,8 @@ pub(in crate::app) fn range_of(view: &View, session: &Session, side: &Side) -> (
 
 fn variable(view: &View, session: &Session, side: &Side) -> Variable {
     let range = range_of(view, session, side);
-    let logarithmic = side.dimension.logarithmic() && range.0 > 0.0 && range.1 > 3.0 * range.0;
+    let logarithmic =
+        side.dimension.fact().scale == Scale::Logarithmic && range.0 > 0.0 && range.1 > 3.0 * range.0;
     Variable { coordinate: Coordinate::Dimension(side.dimension), range, logarithmic }
 }
 

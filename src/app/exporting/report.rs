@@ -3,10 +3,9 @@
 use super::BUSY;
 use crate::app::errand::Errand;
 use crate::app::panels::design::safety::{Safety, in_words};
-use crate::app::panels::device;
 use crate::app::reading::Reading;
 use crate::app::session::Status;
-use crate::app::text::{fill, language, tr, within};
+use crate::app::text::{fill, language, tr};
 use crate::app::view::design::Page;
 use crate::app::view::{Panel, Tab, View};
 use crate::app::widgets::number::{exact, round_significant, typographic};
@@ -16,7 +15,7 @@ use crate::dynamics::Outcome;
 use crate::export::Figure;
 use crate::export::report::{Report, Words, html};
 use crate::model::limits::Standing;
-use crate::model::{Demand, Dimension, ForceLaw};
+use crate::model::{Demand, Dimension, ForceLaw, Parameter};
 use crate::questions::harvest::HarvestStudy;
 use crate::scenario::Scenario;
 use crate::scheduler::{Asked as _, Study as _};
@@ -83,18 +82,7 @@ impl App {
             within: tr("Within the limits"),
             device: tr("Device"),
             dimensionless: tr("Dimensionless"),
-            parameters: [
-                tr("damping"),
-                tr("excitation"),
-                tr("frequency"),
-                tr("magnet strength"),
-                tr("gap"),
-                tr("magnet length"),
-                tr("tip mass"),
-                tr("capacitance, V⁻²"),
-                tr("conductance, V⁻²"),
-                tr("coupling, V⁻¹"),
-            ],
+            parameters: Parameter::ALL.map(|parameter| tr(parameter.fact().title)),
             model: model_in_words(&self.view.scenario),
         }
     }
@@ -118,21 +106,15 @@ impl App {
 fn device_rows(view: &View) -> Vec<[String; 3]> {
     let Ok(found) = bench::device(&view.scenario) else { return Vec::new() };
     let row = |dimension: &Dimension| {
-        let (name, symbol, unit, factor, _) = device::words(*dimension, view.scenario.scaling);
-        let value = factor * found.get(*dimension);
+        let fact = dimension.fact();
+        let value = fact.shown.1 * found.get(*dimension);
         let value = if value.is_finite() {
+            let unit = view.scenario.scaling.unit(fact.shown.0);
             format!("{} {unit}", typographic(&exact(round_significant(value, 5))))
         } else {
             tr("open circuit").to_owned()
         };
-        let whose = match dimension {
-            Dimension::MagnetLength | Dimension::MagnetRadius | Dimension::MagnetArea => tr("Magnet "),
-            Dimension::BeamLength | Dimension::BeamMass => tr("Beam "),
-            Dimension::CeramicThickness => tr("Ceramic "),
-            _ => "",
-        };
-        let name = if whose.is_empty() { name.to_owned() } else { whose.to_owned() + &within(name) };
-        [name, symbol.to_owned(), value]
+        [tr(fact.title).to_owned(), fact.base().to_owned(), value]
     };
     let mut rows: Vec<[String; 3]> = Dimension::ALL.iter().map(row).collect();
     let magnets = match (view.scenario.parameters.c0 == 0.0, found.repelling) {

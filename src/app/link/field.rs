@@ -74,7 +74,7 @@ pub(super) fn fields() -> Vec<Field> {
     add("/scenario/t_end", Kind::Number(END_TIME, ""));
     add("/scenario/initial", Kind::Numbers(None, (-1e6, 1e6)));
     for dimension in Dimension::ALL {
-        let number = Kind::Number(dimension.accepted(), dimension.unit());
+        let number = Kind::Number(dimension.range(), dimension.fact().unit);
         let kind = if dimension == Dimension::Resistance { Kind::Resistance } else { number };
         add(&format!("{DEVICE}/{}", dimension.field()), kind);
     }
@@ -200,7 +200,7 @@ impl Field {
             Kind::Number(range, unit) => number::read(text, range, &spaced(unit)).map(Value::from),
             Kind::Resistance if text == "open" => Ok(Value::Null),
             Kind::Resistance => {
-                let read = number::read(text, Dimension::Resistance.accepted(), " ohm");
+                let read = number::read(text, Dimension::Resistance.range(), " ohm");
                 read.map(Value::from).map_err(|reason| reason + ", or open")
             }
             Kind::Whole(minimum, maximum) => match text.trim().parse::<usize>() {

@@ -117,7 +117,7 @@ fn state_and_phase_go_on_when_a_number_changes() {
     let mut expected = page.sample();
     for (k, parameter) in Parameter::ALL.into_iter().cycle().take(30).enumerate() {
         let (state, before) = (page.state(), page.sample());
-        *parameter.get_mut(&mut page.view.scenario.parameters) *= if k % 2 == 0 { 1.03 } else { 0.98 };
+        *page.view.scenario.parameters.get_mut(parameter) *= if k % 2 == 0 { 1.03 } else { 0.98 };
         // A frame of no length takes the numbers over and nothing else.
         page.live.frame(page.clock, &page.view);
         let after = page.sample();
@@ -262,8 +262,7 @@ fn a_change_of_numbers_is_cheap_enough_for_every_frame() {
         for parameter in [Parameter::Omega, Parameter::D] {
             let begun = milliseconds();
             for k in 0..100 {
-                *parameter.get_mut(&mut page.view.scenario.parameters) *=
-                    if k % 2 == 0 { 1.01 } else { 0.99 };
+                *page.view.scenario.parameters.get_mut(parameter) *= if k % 2 == 0 { 1.01 } else { 0.99 };
                 page.frames(1);
             }
             let each = 0.01 * (milliseconds() - begun);

@@ -2,18 +2,13 @@
 
 use egui::Ui;
 
-use super::frequency::{FREQUENCIES, resonance_marks};
-use super::{Context, beam, device, structure};
+use super::frequency::resonance_marks;
+use super::{Context, beam, device, facts, structure};
 use crate::app::map::Boundaries;
-use crate::app::text::{fill, tr};
+use crate::app::text::fill;
 use crate::app::view::Tab;
-use crate::app::widgets::ParameterSlider;
 use crate::app::widgets::number::short;
-use crate::model::{Parameter, ParameterSet, Units};
-
-/// Values from which on the sliders are logarithmic.
-const SMALLEST_DAMPING: f64 = 1e-6;
-const SMALLEST_EXCITATION: f64 = 1e-5;
+use crate::model::{Parameter, ParameterSet, Part, Units};
 
 /// Draws the column.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -52,33 +47,16 @@ fn main_controls(context: &mut Context<'_>, ui: &mut Ui) {
     let before = set;
     let units = context.view.scenario.units();
     let boundaries = context.session.boundaries.as_ref();
-    let (damping, excitation) = (damping_in_words(boundaries, &set), excitation_in_words(&units, &set));
-    let frequency = frequency_in_words(&units, &set);
-    let default = ParameterSet::default();
-    let (low, high) = Parameter::Alpha.range();
-    ParameterSlider::new(tr("Damping"), "α", &mut set.alpha, low..=high)
-        .logarithmic_from(SMALLEST_DAMPING)
-        .default_value(default.alpha)
-        .tooltip(tr("Kelvin-Voigt damping of the beam's material: the higher a mode, the more it takes."))
-        .equation("Eq. 8")
-        .secondary(&damping)
-        .show(ui);
-    let (low, high) = Parameter::Beta.range();
-    ParameterSlider::new(tr("Excitation"), "β", &mut set.beta, low..=high)
-        .logarithmic_from(SMALLEST_EXCITATION)
-        .default_value(default.beta)
-        .tooltip(tr("Amplitude of the base's motion, in beam lengths."))
-        .equation("Eq. 8")
-        .secondary(&excitation)
-        .show(ui);
     let marks = boundaries.map_or_else(Vec::new, resonance_marks);
-    ParameterSlider::new(tr("Frequency"), "ω", &mut set.omega, FREQUENCIES.0..=FREQUENCIES.1)
-        .marks(&marks)
-        .default_value(default.omega)
-        .tooltip(tr("Angular frequency of the base's motion, in units of √(EI / m_b L³). Click a mark to go to a resonance."))
-        .equation("Eq. 8")
-        .secondary(&frequency)
-        .show(ui);
+    for parameter in Parameter::of(&[Part::Main]) {
+        let (secondary, marks) = match parameter {
+            Parameter::Alpha => (damping_in_words(boundaries, &set), &[][..]),
+            Parameter::Beta => (excitation_in_words(&units, &set), &[][..]),
+            Parameter::Omega => (frequency_in_words(&units, &set), &marks[..]),
+            _ => (String::new(), &[][..]),
+        };
+        facts::of_parameter(&mut set, parameter).marks(marks).secondary(&secondary).show(ui);
+    }
     if set != before {
         context.edit(|scenario| scenario.parameters = set);
     }

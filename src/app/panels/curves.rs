@@ -4,17 +4,16 @@ use egui::Ui;
 use egui_plot::{PlotBounds, PlotPoint};
 
 use super::spec::{Asking, Place, Spec};
-use super::{Context, parameter};
+use super::{Context, facts};
 use crate::app::command::Command;
 use crate::app::text::{fill, marked, reworded, tr};
 use crate::app::view::Tab;
 use crate::app::widgets::number::round_significant;
-use crate::app::widgets::plot_style::{self, Axis};
+use crate::app::widgets::plot_style;
 use crate::app::widgets::{Series, chips_after, legend};
 use crate::app::{colours, questions};
 use crate::dynamics::Instability;
 use crate::dynamics::bifurcations::curves::Criticality;
-use crate::model::Parameter;
 use crate::questions::curves::{CurvesStudy, PARAMETERS};
 use crate::scheduler::{Asked as _, Study as _};
 
@@ -50,7 +49,7 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let [mut x, mut y] = context.view.plane;
     let before = [x, y];
-    let choices = PARAMETERS.map(|parameter| (parameter, parameter::title(parameter).1));
+    let choices = PARAMETERS.map(|parameter| (parameter, parameter.fact().symbol));
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         chips_after(ui, tr("across"), tr("Horizontal parameter"), &mut x, &choices);
@@ -78,11 +77,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(question) = questions::curves(context.view, context.session) else { return };
     let [x_axis, y_axis] = *question.plane.axes();
-    let titled = |parameter: Parameter| {
-        let (name, symbol) = parameter::title(parameter);
-        Axis::new(name, symbol)
-    };
-    let (x, y) = (titled(x_axis.parameter), titled(y_axis.parameter));
+    let (x, y) = (facts::axis(x_axis.parameter.fact()), facts::axis(y_axis.parameter.fact()));
     let study =
         context.studies.lanes.study::<CurvesStudy>().filter(|study| study.asked().plane == question.plane);
     let current = study.is_some_and(|study| *study.asked() == question);
@@ -117,13 +112,13 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
             }
         });
     let parameters = context.view.scenario.parameters;
-    let here = [x_axis.parameter.get(&parameters), y_axis.parameter.get(&parameters)];
+    let here = [parameters.get(x_axis.parameter), parameters.get(y_axis.parameter)];
     let drag = plot_style::operating_point(ui, &shown, tr("Operating point in this plane"), here);
     if let Some(moved) = drag.moved {
         context.edit(|scenario| {
             for (axis, value) in [x_axis, y_axis].iter().zip(moved) {
                 let value = value.clamp(axis.range.0, axis.range.1);
-                *axis.parameter.get_mut(&mut scenario.parameters) = round_significant(value, 5);
+                *scenario.parameters.get_mut(axis.parameter) = round_significant(value, 5);
             }
         });
     }

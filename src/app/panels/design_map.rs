@@ -3,11 +3,11 @@
 use egui::{Color32, Id, Ui};
 use egui_plot::PlotBounds;
 
-use super::Context;
+use super::{Context, facts};
 use super::design::search::digits::in_digits;
 use super::spec::{Asking, Place, Spec};
-use crate::app::panels::device::{self, adopt};
-use crate::app::text::{fill, tr, within};
+use crate::app::panels::device::adopt;
+use crate::app::text::{fill, tr};
 use crate::app::view::design::{Aim, Page};
 use crate::app::widgets::number::{self, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -91,8 +91,8 @@ fn extremes(map: &DesignMap) -> (f64, f64) {
 }
 
 fn axis(dimension: Dimension, logarithmic: bool, scaling: ElectricalScaling) -> Axis {
-    let (name, symbol, unit, ..) = device::words(dimension, scaling);
-    let axis = Axis::new(within(name), symbol).unit(unit);
+    let fact = dimension.fact();
+    let axis = facts::axis(fact).unit(scaling.unit(fact.shown.0));
     if logarithmic { axis.logarithmic() } else { axis }
 }
 
@@ -117,7 +117,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let variables = &map.asked().variables;
     let sides = search.sides.map(|side| side.dimension);
     let scaling = map.asked().scenario.scaling;
-    let factors = sides.map(|dimension| device::words(dimension, scaling).3);
+    let factors = sides.map(|dimension| dimension.fact().shown.1);
     let axes = [0, 1].map(|i| axis(sides[i], variables[i].logarithmic, scaling));
     let place = |i: usize, value: f64| axes[i].coordinate(factors[i] * value);
     let range = |i: usize| (place(i, variables[i].range.0), place(i, variables[i].range.1));

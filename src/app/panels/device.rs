@@ -4,19 +4,16 @@ mod excitation;
 mod parts;
 mod presets;
 mod refusal;
-mod words;
 
 use egui::{RichText, Ui};
 
 pub(super) use self::excitation::excitation;
 pub(super) use self::parts::structure;
-pub(in crate::app) use self::words::words;
-use super::Context;
+use super::{Context, facts};
 use crate::app::command::Command;
 use crate::app::text::{fill, reworded, tr};
 use crate::app::view::{Tab, View};
-use crate::app::widgets::number::round_significant;
-use crate::app::widgets::{ParameterSlider, chips};
+use crate::app::widgets::chips;
 use crate::app::{bench, theme};
 use crate::model::{Device, Dimension, ElectricalScaling};
 
@@ -40,27 +37,13 @@ pub(super) fn choose_units(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// One compact slider for a dimension; its range is the usual one, widened to the present value.
 fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension, scaling: ElectricalScaling) -> bool {
-    let (name, symbol, unit, factor, tooltip) = words(dimension, scaling);
-    let (low, high) = dimension.usual();
+    let fact = dimension.fact();
+    let (unit, factor) = fact.shown;
     let present = device.get(dimension);
-    let present = if present.is_finite() { present } else { high };
-    let mut value = round(factor * present);
-    let (low, high) = (round(factor * low).min(value), round(factor * high).max(value));
-    let default = round(factor * Device::default().get(dimension));
-    let slider = ParameterSlider::new(name, symbol, &mut value, low..=high)
-        .default_value(default)
-        .unit(unit)
-        .tooltip(tooltip)
-        .compact();
-    let slider = match dimension {
-        _ if dimension.logarithmic() && low > 0.0 => slider.logarithmic(),
-        Dimension::TipMass => slider.logarithmic_from(1e-2),
-        Dimension::Viscosity | Dimension::Coupling | Dimension::BaseAmplitude => {
-            slider.logarithmic_from(1e-4 * high)
-        }
-        _ => slider,
-    };
-    let changed = slider.show(ui).changed;
+    let mut value = facts::round(factor * if present.is_finite() { present } else { fact.usual.1 });
+    let default = facts::round(factor * Device::default().get(dimension));
+    let slider = facts::slider(fact, &mut value).default_value(default).unit(scaling.unit(unit));
+    let changed = slider.compact().show(ui).changed;
     if changed {
         *device.get_mut(dimension) = value / factor;
     }
@@ -74,11 +57,6 @@ pub(super) fn alone(context: &mut Context<'_>, ui: &mut Ui, dimension: Dimension
     if slider(ui, &mut device, dimension, scaling) {
         adopt(context, device, scaling);
     }
-}
-
-/// Without the last digits, which are what is left of the factor.
-fn round(value: f64) -> f64 {
-    round_significant(value, 12)
 }
 
 /// Takes a changed device over, or says why it is none. The consistent scaling is that of a device of one's own, for

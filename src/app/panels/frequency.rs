@@ -1,11 +1,9 @@
-//! The frequency slider's ends and marks.
+//! The frequency slider's marks.
 
 use crate::app::map::Boundaries;
 use crate::app::text::tr;
 use crate::app::widgets::Mark;
-
-/// Ends of the slider (dimensionless); numbers beyond can come from a file or a request.
-pub(super) const FREQUENCIES: (f64, f64) = (0.5, 50.0);
+use crate::model::Parameter;
 
 /// Marks of the frequency slider, the secondary resonances first.
 pub(super) fn resonance_marks(boundaries: &Boundaries) -> Vec<Mark> {
@@ -25,6 +23,7 @@ pub(super) fn resonance_marks(boundaries: &Boundaries) -> Vec<Mark> {
     } else {
         marks.push(Mark::new(first, "ω₁", tr("First natural frequency: primary resonance")));
     }
-    marks.retain(|mark| (FREQUENCIES.0..=FREQUENCIES.1).contains(&mark.value));
+    let (lowest, highest) = Parameter::Omega.fact().usual;
+    marks.retain(|mark| (lowest..=highest).contains(&mark.value));
     marks
 }

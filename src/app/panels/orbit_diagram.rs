@@ -4,7 +4,7 @@ use egui::{RichText, Ui};
 use egui_plot::{PlotPoint, VLine};
 
 use super::spec::{Asking, Place, Spec};
-use super::{Context, parameter};
+use super::{Context, facts};
 use crate::app::questions;
 use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
@@ -46,11 +46,11 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
     }
     let ways = [Direction::Up, Direction::Down].map(|direction| strobe(study, direction, settled));
     let open = both(|direction| strobe(study, direction, |point| !settled(point)));
-    let (name, symbol) = parameter::title(study.question().parameter);
-    let (x, y) = (Axis::new(name, symbol), Axis::new(tr("voltage at t = 2πk/ω"), "v").unit("V"));
+    let x = facts::axis(study.question().parameter.fact());
+    let y = Axis::new(tr("voltage at t = 2πk/ω"), "v").unit("V");
     let range = study.question().range();
     let colour = theme::tokens(ui).ruler;
-    let value = study.question().parameter.get(&context.view.scenario.parameters);
+    let value = context.view.scenario.parameters.get(study.question().parameter);
     let response = plot_style::plot(ui, ("orbit diagram", study.question().parameter), &x, &y)
         .include_x(range.0)
         .include_x(range.1)
@@ -113,7 +113,6 @@ pub(super) fn go_where_clicked<R>(
     let value = plot.transform.value_from_position(at).x.clamp(low, high);
     let parameter = study.question().parameter;
     context.edit(|scenario| {
-        *parameter.get_mut(&mut scenario.parameters) =
-            crate::app::widgets::number::round_significant(value, 5);
+        *scenario.parameters.get_mut(parameter) = crate::app::widgets::number::round_significant(value, 5);
     });
 }

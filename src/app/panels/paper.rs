@@ -2,13 +2,13 @@
 
 use egui::{RichText, Ui};
 
-use super::parameter::PARAMETERS;
 use super::{Context, figure_boundaries, figure_panels, grid, tables};
 use crate::app::command::Command;
 use crate::app::figures::{self, FIGURES, Figure};
 use crate::app::text::{fill, tr};
 use crate::app::widgets::{BadgeKind, badge, chips};
 use crate::app::{caption, fonts, theme};
+use crate::model::Parameter;
 use crate::scenario::Scenario;
 
 /// The number under which the tables are chosen.
@@ -82,10 +82,10 @@ fn describe(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure) {
 
 /// What of a figure's own scenario is another in the one that is shown: what it is called on the page.
 fn changes(own: &Scenario, shown: &Scenario) -> Vec<&'static str> {
-    let parameters = PARAMETERS
+    let parameters = Parameter::ALL
         .into_iter()
-        .filter(|(parameter, _)| parameter.get(&own.parameters) != parameter.get(&shown.parameters))
-        .map(|(_, symbol)| symbol);
+        .filter(|parameter| own.parameters.get(*parameter) != shown.parameters.get(*parameter))
+        .map(|parameter| parameter.fact().symbol);
     let rest = [
         (own.model.modes != shown.model.modes, tr("modes")),
         (own.model.force != shown.model.force, tr("force law")),

@@ -5,7 +5,7 @@ use egui_plot::{PlotPoint, VLine};
 
 use super::orbit_diagram::settled;
 use super::spec::{Asking, Place, Spec};
-use super::{Context, orbit_diagram, parameter};
+use super::{Context, facts, orbit_diagram};
 use crate::app::crew::Followed;
 use crate::app::questions;
 use crate::app::text::{fill, marked, tr};
@@ -109,11 +109,10 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     let marks: Vec<(String, [f64; 2])> = branches.iter().flat_map(|curve| marks(curve, &measure)).collect();
     let ways = [Direction::Up, Direction::Down].map(|direction| reached(study, direction, &measure, settled));
     let open = orbit_diagram::both(|direction| reached(study, direction, &measure, |point| !settled(point)));
-    let (name, symbol) = parameter::title(study.question().parameter);
-    let (x, y) = (Axis::new(name, symbol), measure.axis());
+    let (x, y) = (facts::axis(study.question().parameter.fact()), measure.axis());
     let range = study.question().range();
     let colour = theme::tokens(ui).ruler;
-    let value = study.question().parameter.get(&context.view.scenario.parameters);
+    let value = context.view.scenario.parameters.get(study.question().parameter);
     let id = ("response", study.question().parameter, context.view.sweep.output as u8);
     let response = plot_style::plot(ui, id, &x, &y)
         .include_x(range.0)

@@ -2,12 +2,11 @@
 
 use egui::Ui;
 
-use super::Context;
-use super::frequency::FREQUENCIES;
+use super::{Context, facts};
 use crate::app::text::{fill, tr};
 use crate::app::widgets::number::short;
 use crate::app::widgets::{Fold, ParameterSlider, chips};
-use crate::model::{ForceLaw, MAX_MODES, Parameter, ParameterSet, state_dimension};
+use crate::model::{ForceLaw, MAX_MODES, Parameter, ParameterSet, Part, state_dimension};
 use crate::scenario::{END_TIME, Scenario};
 
 /// Degree a Taylor law starts with.
@@ -17,22 +16,23 @@ const FIRST_DEGREE: usize = 5;
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let scenario = context.view.scenario.clone();
     let mut changed = scenario.clone();
-    let p = &scenario.parameters;
-    let (c0, d, h, eta) = (short(p.c0), short(p.d), short(p.h), short(p.eta));
-    let (kappa, theta) = (short(p.kappa), short(p.theta));
-    Fold::new(tr("Magnet")).summary(&format!("c₀ {c0}  d {d}  h {h}")).show(ui, |ui| {
-        number(ui, &mut changed.parameters, Parameter::C0);
-        number(ui, &mut changed.parameters, Parameter::D);
-        number(ui, &mut changed.parameters, Parameter::H);
-    });
-    Fold::new(tr("Beam and tip mass")).summary(&format!("η {eta}")).show(ui, |ui| {
-        number(ui, &mut changed.parameters, Parameter::Eta);
-    });
-    Fold::new(tr("Circuit")).summary(&format!("κ {kappa}  θ {theta}")).show(ui, |ui| {
-        number(ui, &mut changed.parameters, Parameter::C);
-        number(ui, &mut changed.parameters, Parameter::Kappa);
-        number(ui, &mut changed.parameters, Parameter::Theta);
-    });
+    let set = &mut changed.parameters;
+    for (parts, title) in [
+        (&[Part::Magnets][..], tr("Magnet")),
+        (&[Part::Beam], tr("Beam and tip mass")),
+        (&[Part::Circuit, Part::Ceramic], tr("Circuit")),
+    ] {
+        let members = Parameter::of(parts);
+        let value = |parameter: &Parameter| {
+            format!("{} {}", parameter.fact().symbol, short(scenario.parameters.get(*parameter)))
+        };
+        let summary: Vec<String> = members.iter().map(value).collect();
+        Fold::new(title).summary(&summary.join("  ")).show(ui, |ui| {
+            for parameter in members {
+                number(ui, set, parameter);
+            }
+        });
+    }
     model_and_start(ui, &mut changed);
     if changed != scenario {
         context.edit(|scenario| *scenario = changed);
@@ -46,59 +46,9 @@ pub(super) fn model_and_start(ui: &mut Ui, changed: &mut Scenario) {
     Fold::new(tr("Start")).summary(&from).show(ui, |ui| start(ui, changed));
 }
 
-/// One compact slider; its range, scale and words.
+/// One compact slider.
 pub(super) fn number(ui: &mut Ui, set: &mut ParameterSet, parameter: Parameter) {
-    let (name, symbol, tooltip, floor) = match parameter {
-        Parameter::C0 => (
-            tr("Strength"),
-            "c₀",
-            tr("Magnet strength: positive repels, negative attracts, 0 is no magnet."),
-            None,
-        ),
-        Parameter::D => (
-            tr("Gap"),
-            "d",
-            tr("Distance of the magnets with the beam sagged but unbent by them, in beam lengths."),
-            Some(0.01),
-        ),
-        Parameter::H => (tr("Length"), "h", tr("Length of each magnet, in beam lengths."), Some(1e-5)),
-        Parameter::Eta => (tr("Tip mass"), "η", tr("Mass at the tip over the mass of the beam."), Some(1e-3)),
-        Parameter::C => {
-            (tr("Capacitance"), "c", tr("Capacitance of the ceramic, times one volt squared."), Some(1e-9))
-        }
-        Parameter::Kappa => (
-            tr("Load"),
-            "κ",
-            tr("Conductance of the load, times one volt squared: large κ is a small resistance."),
-            Some(1e-9),
-        ),
-        Parameter::Theta => {
-            (tr("Coupling"), "θ", tr("Electromechanical coupling: bending moment of one volt."), Some(1e-6))
-        }
-        // These have a place of their own with more room; here they stand in embedded pages.
-        Parameter::Alpha => {
-            (tr("Damping"), "α", tr("Kelvin-Voigt damping of the beam's material."), Some(1e-6))
-        }
-        Parameter::Beta => {
-            (tr("Excitation"), "β", tr("Amplitude of the base's motion, in beam lengths."), Some(1e-5))
-        }
-        Parameter::Omega => (tr("Frequency"), "ω", tr("Angular frequency of the base's motion."), None),
-    };
-    let default = parameter.get(&ParameterSet::default());
-    let (low, high) = if parameter == Parameter::Omega { FREQUENCIES } else { parameter.usual() };
-    let value = parameter.get_mut(set);
-    let (low, high) = (low.min(*value), high.max(*value));
-    let slider = ParameterSlider::new(name, symbol, value, low..=high)
-        .default_value(default)
-        .tooltip(tooltip)
-        .equation("Eq. 8")
-        .compact();
-    match floor {
-        Some(smallest) if low == 0.0 => slider.logarithmic_from(smallest),
-        Some(_) => slider.logarithmic(),
-        None => slider,
-    }
-    .show(ui);
+    facts::of_parameter(set, parameter).compact().show(ui);
 }
 
 fn law_in_words(law: ForceLaw) -> String {

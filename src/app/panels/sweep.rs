@@ -2,9 +2,7 @@
 
 use egui::Ui;
 
-use super::frequency::FREQUENCIES;
-use super::parameter::{PARAMETERS, title};
-use super::{Context, grid, plots, verdict};
+use super::{Context, facts, grid, plots, verdict};
 use crate::app::command::Command;
 use crate::app::questions;
 use crate::app::text::tr;
@@ -40,7 +38,8 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     Card::new("").hugging().show(ui, |ui| {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 8.0;
-            if chips_after(ui, tr("sweep"), tr("Swept parameter"), &mut sweep.parameter, &PARAMETERS) {
+            let parameters = Parameter::ALL.map(|parameter| (parameter, parameter.fact().symbol));
+            if chips_after(ui, tr("sweep"), tr("Swept parameter"), &mut sweep.parameter, &parameters) {
                 sweep.range = None;
             }
             chips_after(ui, tr("values"), tr("Number of values"), &mut sweep.count, &COUNTS);
@@ -71,17 +70,12 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// The sliders for both ends of the range, one a column.
 fn ends(columns: &mut [Ui], sweep: &mut SweepView, range: (f64, f64)) {
-    let (minimum, maximum) = match sweep.parameter {
-        Parameter::Omega => FREQUENCIES,
-        parameter => parameter.usual(),
-    };
-    let (minimum, maximum) = (minimum.min(range.0), maximum.max(range.1));
-    let (_, symbol) = title(sweep.parameter);
+    let fact = sweep.parameter.fact();
+    let (minimum, maximum) = (fact.usual.0.min(range.0), fact.usual.1.max(range.1));
     let (mut low, mut high) = range;
-    let logarithmic = minimum >= 0.0 && sweep.parameter != Parameter::Omega;
     let end = |ui: &mut Ui, name: &str, value: &mut f64| {
-        let slider = ParameterSlider::new(name, symbol, value, minimum..=maximum).compact();
-        if logarithmic { slider.logarithmic() } else { slider }.show(ui);
+        let slider = ParameterSlider::new(name, fact.symbol, value, minimum..=maximum).compact();
+        facts::spread(slider, fact, minimum).show(ui);
     };
     let last = columns.len() - 1;
     end(&mut columns[0], tr("From"), &mut low);

@@ -8,13 +8,11 @@ use crate::app::widgets::number::short;
 use crate::app::widgets::{Card, number};
 use crate::app::{fonts, theme};
 use crate::model::materials::TABLE_2;
-use crate::model::{Device, ElectricalScaling, Parameter};
+use crate::model::{Device, Dimension, ElectricalScaling, Parameter, Part};
 
 /// Width below which columns stand closer together.
 const NARROW: f32 = 400.0;
 
-/// Symbols of the ten numbers, in the order of [`Parameter::ALL`].
-const SYMBOLS: [&str; 10] = ["α", "β", "ω", "c_0", "d", "h", "η", "c", "κ", "θ"];
 /// Width from which the two columns stand side by side.
 const TWO_COLUMNS: f32 = 780.0;
 
@@ -80,36 +78,24 @@ fn table(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui)) {
 }
 
 fn device(ui: &mut Ui) {
-    let d = Device::default();
-    let rows: [(&str, &str, f64, &str); 17] = [
-        ("ρ", tr("residual flux density"), d.flux_density, "T"),
-        ("μ", tr("permeability of air"), 1e6 * d.permeability, "µH/m"),
-        ("H", tr("length of a magnet"), 1e3 * d.magnet_length, "mm"),
-        ("R", tr("radius of a magnet"), 1e3 * d.magnet_radius, "mm"),
-        ("S", tr("common area of the magnets"), 1e6 * d.magnet_area, "mm²"),
-        ("D", tr("distance of the magnets"), 1e3 * d.magnet_distance, "mm"),
-        ("L", tr("length of the cantilever"), 1e3 * d.beam_length, "mm"),
-        ("m_b", tr("mass of the cantilever"), 1e3 * d.beam_mass, "g"),
-        ("m_t", tr("mass at the tip"), 1e3 * d.tip_mass, "g"),
-        ("E", tr("Young's modulus"), 1e-9 * d.youngs_modulus, "GPa"),
-        ("I", tr("second moment of area"), 1e12 * d.second_moment, "mm⁴"),
-        ("Λ", tr("viscosity"), 1e-6 * d.viscosity, "MPa s"),
-        ("g", tr("gravity"), d.gravity, "m/s²"),
-        ("C_eq", tr("capacitance"), 1e9 * d.capacitance, "nF"),
-        ("R_eq", tr("load resistance"), 1e-6 * d.resistance, "MΩ"),
-        ("Θ", tr("electromechanical coupling"), 1e6 * d.coupling, "µN/V"),
-        ("T", tr("unit of time"), d.time_unit(), "s"),
-    ];
+    let device = Device::default();
+    let printed = |dimension: &Dimension| !matches!(dimension.fact().part, Part::Main | Part::Ceramic);
     table(ui, "device", |ui| {
         // The meaning last: on a phone it may reach beyond the edge.
         heading(ui, &[tr("symbol"), tr("value"), tr("unit"), tr("meaning")]);
-        for (name, meaning, number, unit) in rows {
+        let mut row = |name: &str, number: f64, unit: &str, meaning: &str| {
             symbol(ui, name);
             value(ui, number);
             ui.label(unit);
             ui.label(meaning);
             ui.end_row();
+        };
+        for dimension in Dimension::ALL.into_iter().filter(printed) {
+            let fact = dimension.fact();
+            let (unit, factor) = (ElectricalScaling::AsPrinted.unit(fact.shown.0), fact.shown.1);
+            row(fact.symbol, factor * device.get(dimension), unit, tr(fact.title));
         }
+        row("T", device.time_unit(), "s", tr("unit of time"));
     });
 }
 
@@ -120,10 +106,10 @@ fn numbers(ui: &mut Ui) {
     let (Ok(printed), Ok(consistent)) = (printed, consistent) else { return };
     table(ui, "numbers", |ui| {
         heading(ui, &[tr("number"), tr("as printed"), tr("consistent units")]);
-        for (parameter, name) in Parameter::ALL.into_iter().zip(SYMBOLS) {
-            symbol(ui, name);
-            value(ui, parameter.get(&printed));
-            value(ui, parameter.get(&consistent));
+        for parameter in Parameter::ALL {
+            symbol(ui, parameter.fact().symbol);
+            value(ui, printed.get(parameter));
+            value(ui, consistent.get(parameter));
             ui.end_row();
         }
     });

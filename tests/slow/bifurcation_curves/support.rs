@@ -42,7 +42,7 @@ pub(crate) fn special(curve: &Curve, kind: SpecialKind) -> Fallible<&SpecialPoin
 pub(crate) fn at(system: &ReducedSystem, plane: &Plane, point: [f64; 2]) -> Fallible<ReducedSystem> {
     let mut set = *system.parameters;
     for (axis, value) in plane.axes().iter().zip(point) {
-        *axis.parameter.get_mut(&mut set) = value;
+        *set.get_mut(axis.parameter) = value;
     }
     Ok(ReducedSystem::new(Parameters::new(set)?, system.modes.len(), system.law)?)
 }

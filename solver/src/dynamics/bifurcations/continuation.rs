@@ -39,7 +39,7 @@ pub fn follow_branch(system: &ReducedSystem, state: &[f64], course: &Course) -> 
     let mut family = Family::new(system, [axis(course)], course.periods)?.shaken(course.shaking);
     let beta = family.beta();
     family.solver.find(state, beta, course.periods)?;
-    let value = course.parameter.get(&system.parameters);
+    let value = system.parameters.get(course.parameter);
     let start = family.place(family.solver.state(), [value]);
     let mut along = DVector::zeros(start.len());
     along[start.len() - 1] = if course.upwards { 1.0 } else { -1.0 };

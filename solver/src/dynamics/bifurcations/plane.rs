@@ -70,7 +70,7 @@ impl Plane {
     pub fn system(&self, system: &ReducedSystem, at: [f64; 2]) -> Result<ReducedSystem, ModelError> {
         let mut set = *system.parameters;
         for (axis, value) in self.axes.iter().zip(at) {
-            *axis.parameter.get_mut(&mut set) = axis.accepted(value);
+            *set.get_mut(axis.parameter) = axis.accepted(value);
         }
         system.with_numbers(set)
     }

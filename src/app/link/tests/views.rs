@@ -37,14 +37,14 @@ fn parameters() -> impl Strategy<Value = ParameterSet> {
     Parameter::ALL.map(|parameter| option::of(within(parameter.range()))).prop_map(|numbers| {
         let mut set = ParameterSet::default();
         for (parameter, number) in Parameter::ALL.into_iter().zip(numbers) {
-            *parameter.get_mut(&mut set) = number.unwrap_or(parameter.get(&set));
+            *set.get_mut(parameter) = number.unwrap_or(set.get(parameter));
         }
         set
     })
 }
 
 fn device() -> impl Strategy<Value = Device> {
-    let numbers = Dimension::ALL.map(|dimension| option::of(within(dimension.accepted())));
+    let numbers = Dimension::ALL.map(|dimension| option::of(within(dimension.range())));
     (numbers, any::<bool>(), any::<bool>(), option::of(select(&Ceramic::ALL[..]))).prop_map(
         |(numbers, repelling, open, ceramic)| {
             let mut device = Device { repelling, ceramic, ..Device::default() };
@@ -112,7 +112,7 @@ fn limits() -> impl Strategy<Value = Limits> {
 
 fn side() -> impl Strategy<Value = Side> {
     select(&Dimension::ALL[..]).prop_flat_map(|dimension| {
-        let end = || within(dimension.accepted());
+        let end = || within(dimension.range());
         option::of((end(), end())).prop_map(move |range| Side { dimension, range })
     })
 }

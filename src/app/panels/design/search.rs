@@ -8,7 +8,7 @@ use egui::{RichText, Ui};
 use self::digits::in_digits;
 use crate::app::bench::questions;
 use crate::app::command::Command;
-use crate::app::panels::{Context, device, grid};
+use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, reworded, tr};
 use crate::app::theme;
 use crate::app::view::design::Aim;
@@ -100,8 +100,9 @@ fn result(context: &mut Context<'_>, ui: &mut Ui, study: &FindStudy, best: &Cand
     ui.label(RichText::new(text).small().color(tokens.text_weak));
     for (variable, value) in study.question().variables.iter().zip(&best.values) {
         if let crate::questions::motions::Coordinate::Dimension(dimension) = variable.coordinate {
-            let (_, _, unit, factor, _) = device::words(dimension, study.question().scenario.scaling);
-            let text = format!("{}: {} {unit}", varied::whose(dimension), significant(factor * value, 4));
+            let fact = dimension.fact();
+            let unit = study.question().scenario.scaling.unit(fact.shown.0);
+            let text = format!("{}: {} {unit}", tr(fact.title), significant(fact.shown.1 * value, 4));
             ui.label(RichText::new(text).small().color(tokens.text));
         }
     }
@@ -113,7 +114,7 @@ fn result(context: &mut Context<'_>, ui: &mut Ui, study: &FindStudy, best: &Cand
             let percent = significant(100.0 * found.loss, 2);
             let text = fill(
                 "On a cliff: a change by 0.1 % takes {percent} % of it: {variable}",
-                &[("percent", &percent), ("variable", &varied::whose(dimension))],
+                &[("percent", &percent), ("variable", &tr(dimension.fact().title))],
             );
             ui.add(egui::Label::new(RichText::new(text).small().color(tokens.danger)).wrap());
         }

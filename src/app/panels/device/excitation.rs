@@ -4,14 +4,15 @@ use std::f64::consts::TAU;
 
 use egui::{RichText, Ui};
 
-use super::{adopt, choose_units, device_of, round, words};
-use crate::app::panels::Context;
-use crate::app::panels::frequency::{FREQUENCIES, resonance_marks};
+use super::{adopt, choose_units, device_of};
+use crate::app::panels::facts::round;
+use crate::app::panels::frequency::resonance_marks;
+use crate::app::panels::{Context, facts};
 use crate::app::text::{fill, reworded, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{round_significant, short};
 use crate::app::widgets::{Mark, ParameterSlider, chips};
-use crate::model::{Device, Dimension};
+use crate::model::{Device, Dimension, Parameter};
 
 /// Largest acceleration (g) on the slider.
 const MOST_ACCELERATION: f64 = 5.0;
@@ -47,17 +48,11 @@ pub(in crate::app::panels) fn excitation(context: &mut Context<'_>, ui: &mut Ui)
             changed = changed.with_acceleration(acceleration);
         }
     } else {
-        let (name, symbol, unit, factor, tooltip) =
-            words(Dimension::BaseAmplitude, context.view.scenario.scaling);
+        let fact = Dimension::BaseAmplitude.fact();
+        let (unit, factor) = fact.shown;
         let mut amplitude = round(factor * device.base_amplitude);
-        let high = (factor * Dimension::BaseAmplitude.usual().1).max(amplitude);
         let acceleration = format!("{} g", short(device.acceleration()));
-        ParameterSlider::new(name, symbol, &mut amplitude, 0.0..=high)
-            .logarithmic_from(1e-3)
-            .unit(unit)
-            .tooltip(tooltip)
-            .secondary(&acceleration)
-            .show(ui);
+        facts::slider(fact, &mut amplitude).unit(unit).secondary(&acceleration).show(ui);
         if amplitude != round(factor * device.base_amplitude) {
             changed.base_amplitude = amplitude / factor;
         }
@@ -86,7 +81,8 @@ fn frequency(context: &Context<'_>, ui: &mut Ui, device: &mut Device) {
     for mark in &mut marks {
         mark.value = round_significant(units.hertz(mark.value), 6);
     }
-    let (lowest, highest) = FREQUENCIES;
+    let (lowest, highest) = Parameter::Omega.fact().usual;
+    let fact = Dimension::Frequency.fact();
     let low = round(units.hertz(lowest)).min(value);
     let high = round(units.hertz(highest)).max(value);
     let period = fill(
@@ -96,10 +92,10 @@ fn frequency(context: &Context<'_>, ui: &mut Ui, device: &mut Device) {
             ("omega", &short(TAU * device.frequency * units.time)),
         ],
     );
-    ParameterSlider::new(tr("Frequency"), "f", &mut value, low..=high)
+    ParameterSlider::new(tr(fact.name), fact.symbol, &mut value, low..=high)
         .marks(&marks)
-        .unit("Hz")
-        .tooltip(tr("Frequency of the base's motion. Click a mark to go to a resonance."))
+        .unit(fact.shown.0)
+        .tooltip(tr(fact.explanation))
         .secondary(&period)
         .show(ui);
     if value != present {

@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::{adopt, device_of, presets, slider, words};
+use super::{adopt, device_of, presets, slider};
 use crate::app::panels::Context;
 use crate::app::panels::structure::model_and_start;
 use crate::app::text::tr;
@@ -10,7 +10,7 @@ use crate::app::widgets::number::{short, with_unit};
 use crate::app::widgets::{Fold, chips};
 use crate::app::{bench, theme};
 use crate::model::inverse::Magnets;
-use crate::model::{Device, Dimension, ElectricalScaling};
+use crate::model::{Device, Dimension, ElectricalScaling, Part};
 use crate::scenario::Scenario;
 
 /// Beam, magnets, circuit, ceramic, model and start.
@@ -34,23 +34,18 @@ pub(in crate::app::panels) fn structure(context: &mut Context<'_>, ui: &mut Ui) 
     presets::buttons(context, ui);
 }
 
+fn sliders(ui: &mut Ui, device: &mut Device, parts: &[Part], scaling: ElectricalScaling) {
+    for dimension in Dimension::of(parts) {
+        slider(ui, device, dimension, scaling);
+    }
+}
+
 fn beam(ui: &mut Ui, device: &mut Device, scaling: ElectricalScaling) {
-    let of =
-        |dimension: Dimension, device: &Device| short(words(dimension, scaling).3 * device.get(dimension));
+    let of = |dimension: Dimension, device: &Device| short(dimension.fact().shown.1 * device.get(dimension));
     let summary =
         format!("L {} mm  ·  {} g", of(Dimension::BeamLength, device), of(Dimension::BeamMass, device));
     Fold::new(tr("Beam")).summary(&summary).default_open(true).show(ui, |ui| {
-        for dimension in [
-            Dimension::BeamLength,
-            Dimension::BeamMass,
-            Dimension::TipMass,
-            Dimension::YoungsModulus,
-            Dimension::SecondMoment,
-            Dimension::Viscosity,
-            Dimension::Gravity,
-        ] {
-            slider(ui, device, dimension, scaling);
-        }
+        sliders(ui, device, &[Part::Beam], scaling);
     });
 }
 
@@ -67,33 +62,14 @@ fn magnets(ui: &mut Ui, device: &mut Device, scaling: ElectricalScaling) {
         if chips(ui, tr("Magnets"), &mut kind, &kinds) {
             *device = device.with_magnets(kind, &Device::default());
         }
-        ui.push_id("magnets", |ui| {
-            for dimension in [
-                Dimension::MagnetDistance,
-                Dimension::FluxDensity,
-                Dimension::MagnetLength,
-                Dimension::MagnetRadius,
-                Dimension::MagnetArea,
-                Dimension::Permeability,
-            ] {
-                slider(ui, device, dimension, scaling);
-            }
-        });
+        ui.push_id("magnets", |ui| sliders(ui, device, &[Part::Magnets], scaling));
     });
 }
 
 fn circuit(ui: &mut Ui, device: &mut Device, scaling: &mut ElectricalScaling) {
     let load = with_unit(device.resistance, "Ω");
     Fold::new(tr("Circuit and ceramic")).summary(&load).default_open(true).show(ui, |ui| {
-        for dimension in [
-            Dimension::Resistance,
-            Dimension::Capacitance,
-            Dimension::Coupling,
-            Dimension::CeramicThickness,
-            Dimension::LossTangent,
-        ] {
-            slider(ui, device, dimension, *scaling);
-        }
+        sliders(ui, device, &[Part::Circuit, Part::Ceramic], *scaling);
         let choices = [
             (ElectricalScaling::AsPrinted, tr("as printed")),
             (ElectricalScaling::Consistent, tr("consistent units")),

@@ -45,7 +45,7 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
             scenario.model.residual_moment = false;
             taken = Some(scenario.set_device(Device::default(), ElectricalScaling::AsPrinted).map(|()| {
                 for parameter in [Parameter::Omega, Parameter::Beta, Parameter::Alpha] {
-                    *parameter.get_mut(&mut scenario.parameters) = parameter.get(&own);
+                    *scenario.parameters.get_mut(parameter) = own.get(parameter);
                 }
                 scenario
             }));

@@ -1,7 +1,6 @@
 //! Why a device was refused, in the dimensions and units of the page.
 
-use super::words::words;
-use crate::app::text::fill;
+use crate::app::text::{fill, tr};
 use crate::app::widgets::number::{short, significant};
 use crate::model::{Device, Dimension, ElectricalScaling, ModelError, Parameter};
 
@@ -21,21 +20,21 @@ pub(super) fn in_words(device: &Device, scaling: ElectricalScaling, error: &Mode
 
 /// What the dimension may be as long as the others stay: Eq. (8) solved at both ends of the number's range.
 fn out_of_range(device: &Device, scaling: ElectricalScaling, field: &str, value: f64) -> Option<String> {
-    let dimension =
-        Dimension::ALL.into_iter().find(|other| other.decided_by().is_some_and(|by| by.field() == field))?;
-    let parameter = dimension.decided_by()?;
+    let parameter = Parameter::named(field)?;
+    let dimension = Dimension::ALL.into_iter().find(|other| other.decided_by() == Some(parameter))?;
     let set = device.dimensionless(scaling).ok()?;
     let at = |end: f64| {
         let mut set = set;
-        *parameter.get_mut(&mut set) = end;
+        *set.get_mut(parameter) = end;
         Device::from_parameters(device, &set, scaling).ok().map(|device| device.get(dimension))
     };
     let (low, high) = parameter.range();
     // The sign of c0 is that of the magnets.
     let (first, last) = (at(if parameter == Parameter::C0 { 0.0 } else { low })?, at(high)?);
-    let (name, symbol, unit, factor, _) = words(dimension, scaling);
+    let fact = dimension.fact();
+    let (unit, factor) = (scaling.unit(fact.shown.0), fact.shown.1);
     let text = |value: f64| format!("{} {unit}", significant(factor * value, 4));
-    let title = [name, symbol].join(" ");
+    let title = [tr(fact.name), fact.base()].join(" ");
     let present = text(device.get(dimension));
     let number = format!("{field} = {}", short(value));
     let (least, most) = (first.min(last), first.max(last));
@@ -96,13 +95,13 @@ mod tests {
             let Some(parameter) = dimension.decided_by() else { continue };
             let at = |number: f64| {
                 let mut set = device.dimensionless(ElectricalScaling::Consistent).expect("a device");
-                *parameter.get_mut(&mut set) = number;
+                *set.get_mut(parameter) = number;
                 Device::from_parameters(&device, &set, ElectricalScaling::Consistent).expect("a device")
             };
             let (_, high) = parameter.range();
             assert_eq!(refusal(&at(0.999 * high)), "", "{dimension:?}");
             let told = refusal(&at(1.01 * high));
-            let end = words(dimension, ElectricalScaling::Consistent).3 * at(high).get(dimension);
+            let end = dimension.fact().shown.1 * at(high).get(dimension);
             assert!(told.contains("is out of range here"), "{told}");
             assert!(told.contains(&significant(end, 4)), "{dimension:?} {end}: {told}");
         }

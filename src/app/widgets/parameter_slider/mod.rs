@@ -232,6 +232,9 @@ impl<'a> ParameterSlider<'a> {
                 .font(fonts::semibold(theme::size::BODY)),
         );
         ui.label(self.tooltip);
+        if !self.marks.is_empty() && !self.compact {
+            ui.label(tr("Click a mark to go to a resonance."));
+        }
         let mut facts: Vec<String> = Vec::new();
         if !self.equation.is_empty() {
             facts.push(self.equation.to_owned());

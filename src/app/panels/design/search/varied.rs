@@ -3,13 +3,13 @@
 use egui::{RichText, Ui};
 
 use crate::app::bench::questions;
-use crate::app::panels::{Context, device};
-use crate::app::text::{tr, within};
+use crate::app::panels::{Context, facts};
+use crate::app::text::tr;
 use crate::app::theme;
 use crate::app::view::design::Side;
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::{ParameterSlider, chips};
-use crate::model::{Dimension, ElectricalScaling};
+use crate::model::Dimension;
 
 /// Two dimensions for the map, and a third for the search.
 pub(super) fn sides(context: &mut Context<'_>, ui: &mut Ui) {
@@ -45,55 +45,37 @@ pub(super) fn sides(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// A dimension to choose, and its range.
 fn side(context: &Context<'_>, ui: &mut Ui, name: &str, side: &mut Side) {
-    let (text, _, unit, factor, _) = device::words(side.dimension, context.view.scenario.scaling);
+    let fact = side.dimension.fact();
+    let (unit, factor) = (context.view.scenario.scaling.unit(fact.shown.0), fact.shown.1);
     ui.push_id(name, |ui| {
         ui.horizontal(|ui| {
             let colour = theme::tokens(ui).text_weak;
             ui.label(RichText::new(name).small().color(colour));
-            egui::ComboBox::from_id_salt("dimension")
-                .width(190.0)
-                .selected_text(whose(side.dimension))
-                .show_ui(ui, |ui| {
+            egui::ComboBox::from_id_salt("dimension").width(190.0).selected_text(tr(fact.title)).show_ui(
+                ui,
+                |ui| {
                     for dimension in Dimension::ALL {
-                        if ui.selectable_label(dimension == side.dimension, whose(dimension)).clicked() {
+                        if ui
+                            .selectable_label(dimension == side.dimension, tr(dimension.fact().title))
+                            .clicked()
+                        {
                             *side = Side::of(dimension);
                         }
                     }
-                });
+                },
+            );
         });
         let (low, high) = questions::range_of(context.view, context.session, side);
-        let usual = side.dimension.usual();
+        let usual = facts::usual(fact);
         let (mut from, mut to) = (round_significant(factor * low, 6), round_significant(factor * high, 6));
         let before = (from, to);
-        let (least, most) = ((factor * usual.0).min(from), (factor * usual.1).max(to));
+        let (least, most) = (usual.0.min(from), usual.1.max(to));
         for (end, value) in [(tr("From"), &mut from), (tr("To"), &mut to)] {
             let slider = ParameterSlider::new(end, "", value, least..=most).unit(unit).compact();
-            let slider = if side.dimension.logarithmic() { slider.logarithmic() } else { slider };
-            slider.tooltip(text).show(ui);
+            facts::spread(slider, fact, least).tooltip(tr(fact.name)).show(ui);
         }
         if (from, to) != before {
             side.range = Some((from / factor, to / factor));
         }
     });
-}
-
-/// A dimension's name with what it belongs to.
-pub(super) fn whose(dimension: Dimension) -> String {
-    // The name is the same under both scalings.
-    let (name, ..) = device::words(dimension, ElectricalScaling::default());
-    let of = match dimension {
-        Dimension::FluxDensity
-        | Dimension::MagnetLength
-        | Dimension::MagnetRadius
-        | Dimension::MagnetArea => tr("magnets: "),
-        Dimension::MagnetDistance => tr("magnets: "),
-        Dimension::BeamLength | Dimension::BeamMass | Dimension::YoungsModulus | Dimension::SecondMoment => {
-            tr("beam: ")
-        }
-        Dimension::Viscosity => tr("beam: "),
-        Dimension::CeramicThickness | Dimension::LossTangent => tr("ceramic: "),
-        Dimension::BaseAmplitude => tr("base: "),
-        _ => "",
-    };
-    if of.is_empty() { name.to_owned() } else { format!("{of}{}", within(name)) }
 }
