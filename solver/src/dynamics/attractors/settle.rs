@@ -112,6 +112,8 @@ pub struct Settler {
     /// Of the map on its coarsest grid.
     solver: OrbitSolver,
     known: Vec<Neighbourhood>,
+    /// That of the last start, for its tables.
+    integrator: Option<Collocation>,
 }
 
 impl std::fmt::Debug for Settler {
@@ -124,7 +126,8 @@ impl Settler {
     /// For starts of `system`.
     pub fn new(system: &ReducedSystem) -> Self {
         let map = PeriodMap::new(system).limited(DEEPEST_LEVEL);
-        Self { system: system.clone(), solver: OrbitSolver::with_map(system, map), known: Vec::new() }
+        let solver = OrbitSolver::with_map(system, map);
+        Self { system: system.clone(), solver, known: Vec::new(), integrator: None }
     }
 
     /// What motion the start in `initial` (length 2N + 1) at t = 0 leads to.
@@ -133,8 +136,14 @@ impl Settler {
     /// As [`Collocation::new`] and [`Collocation::advance`].
     pub fn reach(&mut self, initial: &[f64], effort: Effort) -> Result<Reached, IntegrationError> {
         let settings = Settings { tolerance: effort.tolerance };
-        let integrator = Collocation::new(&self.system, initial, settings)?;
-        Run {
+        let integrator = match self.integrator.take() {
+            Some(mut integrator) => {
+                integrator.restart(initial, settings)?;
+                integrator
+            }
+            None => Collocation::new(&self.system, initial, settings)?,
+        };
+        let mut run = Run {
             integrator,
             strobe: Strobe::new(&self.system),
             instants: 0,
@@ -148,8 +157,11 @@ impl Settler {
             failed: Vec::new(),
             effort,
             settler: self,
-        }
-        .follow()
+        };
+        let reached = run.follow();
+        let integrator = run.integrator;
+        self.integrator = Some(integrator);
+        reached
     }
 
     /// The stable periodic motions met so far.
@@ -246,7 +258,7 @@ struct Witnesses {
 }
 
 impl Run<'_> {
-    fn follow(mut self) -> Result<Reached, IntegrationError> {
+    fn follow(&mut self) -> Result<Reached, IntegrationError> {
         let mut next = FIRST_LOOK;
         loop {
             if let Some(outcome) = self.go_on_to(next)? {

@@ -120,24 +120,37 @@ impl Collocation {
         let part = LinearPart::new(system);
         let grid = Grid::new(system, phase);
         let propagator = Propagator::new(&part, grid.longest_step());
-        let mut extended = initial.to_vec();
-        let beta = system.parameters.beta;
-        extended.extend([beta * phase.sin(), beta * phase.cos()]);
-        Ok(Self {
+        let mut integrator = Self {
             part,
             propagator,
             grid,
             force: system.rest_force(),
             settings,
-            beta,
+            beta: system.parameters.beta,
             gap: system.equilibrium.gap,
             tables: vec![None; DEEPEST_LEVEL + 1],
-            extended,
+            extended: vec![0.0; dimension + 2],
             end: vec![0.0; dimension.next_multiple_of(BLOCK)],
             rest: [0.0; NODES],
             tip: [0.0; NODES],
             steps: 0,
-        })
+        };
+        integrator.restart(initial, settings)?;
+        Ok(integrator)
+    }
+
+    /// Begins anew at time 0 in the state `initial` (length 2N + 1): as a new integrator, but its tables are there already.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn restart(&mut self, initial: &[f64], settings: Settings) -> Result<(), IntegrationError> {
+        let dimension = self.part.modes * 2 + 1;
+        check_state(initial, dimension)?;
+        self.grid.restart();
+        self.extended[..dimension].copy_from_slice(initial);
+        self.excite();
+        (self.settings, self.steps) = (settings, 0);
+        Ok(())
     }
 
     /// Present time (dimensionless).
@@ -352,11 +365,16 @@ impl Collocation {
         Some(Outcome::Escaped { time: self.time() })
     }
 
-    /// Counts the step, and takes the excitation from the grid.
+    /// Counts the step.
     fn next_grid_point(&mut self) {
         self.grid.go_on();
+        self.excite();
+    }
+
+    /// The excitation at the present grid point.
+    fn excite(&mut self) {
         let dimension = self.part.modes * 2 + 1;
-        let (sine, cosine) = self.grid.angle().sin_cos();
+        let (sine, cosine) = self.grid.sine_and_cosine();
         self.extended[dimension] = self.beta * sine;
         self.extended[dimension + 1] = self.beta * cosine;
     }
@@ -407,5 +425,28 @@ pub fn check_state(state: &[f64], expected: usize) -> Result<(), IntegrationErro
         Some(i) => {
             Err(IntegrationError::InitialState { expected, got: format!("{} at place {}", state[i], i + 1) })
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{ForceLaw, ParameterSet, Parameters};
+
+    #[test]
+    fn a_start_with_the_tables_of_another_one_goes_the_same_way() -> Result<(), Box<dyn std::error::Error>> {
+        let set = ParameterSet { alpha: 1e-4, beta: 0.01, omega: 8.0969, ..Default::default() };
+        let system = ReducedSystem::new(Parameters::new(set)?, 2, ForceLaw::Exact)?;
+        let (initial, settings) = ([0.01, 0.0, 0.1, 0.0, 0.0], Settings { tolerance: 1e-8 });
+        let mut fresh = Collocation::new(&system, &initial, settings)?;
+        let mut used = Collocation::new(&system, &[0.0; 5], Settings::default())?;
+        used.advance(40.0, usize::MAX, &mut |_| ())?;
+        used.restart(&initial, settings)?;
+        for run in [&mut fresh, &mut used] {
+            run.advance(40.0, usize::MAX, &mut |_| ())?;
+        }
+        assert_eq!((used.state(), used.time(), used.steps()), (fresh.state(), fresh.time(), fresh.steps()));
+        assert!(used.restart(&[0.0; 4], settings).is_err());
+        Ok(())
     }
 }

@@ -5,6 +5,11 @@ use std::f64::consts::TAU;
 
 use crate::model::ReducedSystem;
 
+/// Most grid points of a period of which something is kept.
+const MOST_KEPT: usize = 1024;
+/// Periods for which a step that was too long at a place is not tried there again: motions that repeat ask for the same.
+const PATIENCE: u64 = 16;
+
 /// Largest number of halvings of the longest step.
 pub(super) const DEEPEST_LEVEL: usize = 20;
 
@@ -22,13 +27,30 @@ pub(super) struct Grid {
     index: usize,
     /// Time since the last grid point, once the run's shortened last step is done.
     overtime: f64,
+    /// What is known of the grid points of each level.
+    known: Vec<Vec<Known>>,
+}
+
+/// What is known of a grid point.
+#[derive(Debug, Clone, Copy, Default)]
+struct Known {
+    /// Sine and cosine of the excitation's angle.
+    angle: Option<(f64, f64)>,
+    /// The period in which a step of this level was last too long here.
+    refused: Option<u64>,
 }
 
 impl Grid {
     /// Time 0 of `system`, where the excitation has this `phase` (radians).
     pub(super) fn new(system: &ReducedSystem, phase: f64) -> Self {
         let (period, coarsest) = (system.parameters.period(), coarsest_steps(system));
-        Self { period, phase, coarsest, level: 0, periods: 0, index: 0, overtime: 0.0 }
+        Self { period, phase, coarsest, level: 0, periods: 0, index: 0, overtime: 0.0, known: Vec::new() }
+    }
+
+    /// Goes back to time 0 and the longest step.
+    pub(super) fn restart(&mut self) {
+        (self.level, self.periods, self.index, self.overtime) = (0, 0, 0, 0.0);
+        self.known.iter_mut().flatten().for_each(|known| known.refused = None);
     }
 
     /// Present time (dimensionless).
@@ -80,9 +102,31 @@ impl Grid {
         }
     }
 
-    /// The excitation's angle (radians), from the grid rather than from the last step, so that it cannot drift.
-    pub(super) fn angle(&self) -> f64 {
-        self.phase + TAU * self.index as f64 / self.steps_per_period() as f64
+    /// Sine and cosine of the excitation's angle, from the grid rather than from the last step, so that it cannot drift.
+    pub(super) fn sine_and_cosine(&mut self) -> (f64, f64) {
+        let count = self.steps_per_period();
+        let angle = self.phase + TAU * self.index as f64 / count as f64;
+        let (level, index) = (self.level, self.index);
+        match self.known(level, index) {
+            Some(known) => *known.angle.get_or_insert_with(|| angle.sin_cos()),
+            None => angle.sin_cos(),
+        }
+    }
+
+    /// What is known of point `index` of a level; `None` where nothing is kept.
+    fn known(&mut self, level: usize, index: usize) -> Option<&mut Known> {
+        let count = self.coarsest << level;
+        if count > MOST_KEPT {
+            return None;
+        }
+        if self.known.len() <= level {
+            self.known.resize(level + 1, Vec::new());
+        }
+        let points = &mut self.known[level];
+        if points.is_empty() {
+            points.resize(count, Known::default());
+        }
+        points.get_mut(index)
     }
 
     /// Goes to the end of a shortened last step, between grid points.
@@ -92,6 +136,10 @@ impl Grid {
 
     /// Halves the step, and says whether it could: not the shortest.
     pub(super) fn halve(&mut self) -> bool {
+        let (level, index, period) = (self.level, self.index, self.periods);
+        if let Some(known) = self.known(level, index) {
+            known.refused = Some(period);
+        }
         let halves = self.level < DEEPEST_LEVEL;
         if halves {
             self.level += 1;
@@ -100,11 +148,15 @@ impl Grid {
         halves
     }
 
-    /// Doubles the step where the grid allows it.
+    /// Doubles the step where the grid allows it and that was not too long lately.
     pub(super) fn double(&mut self) {
-        if self.level > 0 && self.index.is_multiple_of(2) {
-            self.level -= 1;
-            self.index /= 2;
+        if self.level == 0 || !self.index.is_multiple_of(2) {
+            return;
+        }
+        let (level, index, period) = (self.level - 1, self.index / 2, self.periods);
+        let refused = self.known(level, index).and_then(|known| known.refused);
+        if refused.is_none_or(|refused| period - refused > PATIENCE) {
+            (self.level, self.index) = (level, index);
         }
     }
 }
@@ -115,4 +167,57 @@ pub(in crate::dynamics) fn coarsest_steps(system: &ReducedSystem) -> usize {
     let modes = &system.modes;
     let fastest = (2.0 * system.parameters.omega).max(modes[modes.len().min(2) - 1].omega);
     ((fastest * system.parameters.period() / 4.0).ceil() as usize).max(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{ModelError, ParameterSet, Parameters, ReducedSystem};
+
+    fn grid() -> Result<Grid, ModelError> {
+        let parameters = Parameters::new(ParameterSet { omega: 8.0969, ..Default::default() })?;
+        Ok(Grid::new(&ReducedSystem::new(parameters, 2, Default::default())?, 0.3))
+    }
+
+    #[test]
+    fn kept_sines_are_those_of_the_angle() -> Result<(), ModelError> {
+        let mut grid = grid()?;
+        grid.halve();
+        for place in 0..5 * grid.steps_per_period() {
+            let angle = 0.3 + TAU * grid.index() as f64 / grid.steps_per_period() as f64;
+            assert_eq!(grid.sine_and_cosine(), angle.sin_cos(), "{place}");
+            grid.go_on();
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn a_step_that_was_too_long_is_left_alone_at_its_place_for_a_while() -> Result<(), ModelError> {
+        let mut grid = grid()?;
+        let steps = grid.steps_per_period();
+        // Too long at the period's beginning only.
+        grid.halve();
+        for period in 0..=PATIENCE + 1 {
+            assert_eq!((grid.level(), grid.index()), (1, 0), "{period}");
+            grid.double();
+            assert_eq!(grid.level(), usize::from(period <= PATIENCE), "{period}");
+            if period > PATIENCE {
+                break;
+            }
+            grid.go_on();
+            grid.go_on();
+            grid.double();
+            assert_eq!((grid.level(), grid.index()), (0, 1), "{period}");
+            for _ in 1..steps {
+                grid.go_on();
+            }
+            // As a step that is refused elsewhere would.
+            (grid.level, grid.index) = (1, 0);
+        }
+        grid.halve();
+        grid.halve();
+        grid.restart();
+        assert_eq!((grid.time(), grid.level(), grid.known[0][0].refused), (0.0, 0, None));
+        Ok(())
+    }
 }

@@ -17,7 +17,7 @@ use super::node_map::NodeMap;
 use super::rule::{MOST_TERMS, NODES, NodeValues, RULE, add_scaled};
 
 /// Entries of the state at the end of a step that are summed together.
-pub(in crate::dynamics) const BLOCK: usize = 4;
+pub(in crate::dynamics) const BLOCK: usize = 8;
 /// Remainder of the Taylor series, relative to the vector.
 const REMAINDER: f64 = 1e-18;
 /// Largest product of the fastest rate and the duration that is left to the Taylor series.
