@@ -107,7 +107,8 @@ fn divergence(system: &ReducedSystem, state: &[f64], periods: usize, steps: u32)
 
 #[test]
 fn on_a_chaotic_motion_it_is_the_divergence_of_runge_kutta_runs() -> TestResult {
-    for (alpha, beta, omega) in [(1e-4, 0.008, 20.0), (1e-3, 0.02, 20.0)] {
+    // Both last; at alpha 1e-4, beta 0.008, omega 20 chaos is a transient, and how long depends on rounding.
+    for (alpha, beta, omega) in [(5e-4, 0.02, 20.0), (1e-3, 0.02, 20.0)] {
         let system = system(alpha, beta, omega, ForceLaw::Exact)?;
         let period = system.parameters.period();
         let run = Trajectory::compute(&system, &[0.0; 5], 1000.0 * period, Settings::default())?;
