@@ -60,7 +60,7 @@ fn driven_hard(random: &mut fastrand::Rng) -> (ParameterSet, ModelChoice) {
 }
 
 /// Excitation periods of the runs: where they have arrived before, long before, and where nothing is steady.
-const LENGTH: Length = Length { first: 1000, least: 20_000, most: 100_000 };
+const LENGTH: Length = Length { first: 1000, least: 20_000, most: 1_000_000 };
 /// Excitation periods between looks for the end of a run.
 const STRETCH: usize = 50;
 

@@ -67,6 +67,7 @@ pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length)
     let period = system.parameters.period();
     let mut done = 0;
     let (mut earlier, mut open, mut chance) = (None, f64::NAN, f64::NAN);
+    let mut always_closer = [true; LONGEST];
     while done < length.most {
         let until = if done == 0 { length.first } else { (done + done / 2).min(length.most) };
         let tenth = ((until - done) / 10).max(2 * LONGEST);
@@ -106,6 +107,10 @@ pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length)
             if orbit.stable() && off(&state) <= near * unit {
                 return Truth::Periodic(Box::new(orbit));
             }
+            // A slow transient may look steady; chaos does not come closer at every look.
+            let closer = earlier.as_ref().is_none_or(|earlier: &Vec<f64>| off(&state) < 0.95 * off(earlier));
+            always_closer[periods - 1] &= closer;
+            leaving |= orbit.stable() && always_closer[periods - 1];
             let before = &last[last.len() - 1 - periods * (LONGEST / periods)];
             let shrinks = earlier.as_ref().is_some_and(|earlier: &Vec<f64>| off(&state) < 0.5 * off(earlier));
             let arrives = off(&state) <= 0.1 * unit && shrinks && off(&state) < off(before);
