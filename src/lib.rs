@@ -3,7 +3,7 @@
 //! Materials 2020, 13(15), 3389).
 //!
 //! * [`model`], [`theory`] and [`dynamics`] are the solver core, a package of its own, so that it builds without the rest
-//!   and is compiled for speed while the page is compiled for size.
+//!   and is compiled for speed while the page is compiled for size. What it tells people are [`sentence`]s.
 //! * [`questions`] is what can be asked, one type each for the page, JavaScript and the native command; [`scheduler`] brings
 //!   their pieces of work to cores and workers.
 //! * [`scenario`] is everything a view depends on, as stored and shared.
@@ -13,7 +13,7 @@
 //!
 //! Dependencies point one way: app -> export, questions -> scheduler, dynamics, theory -> model.
 
-pub use harvester_solver::{dynamics, model, theory};
+pub use harvester_solver::{dynamics, model, sentence, theory};
 
 pub mod export;
 pub mod questions;

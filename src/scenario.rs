@@ -172,7 +172,9 @@ impl Scenario {
         let system = self.model.system(self.parameters)?;
         let dimension = system.dimension();
         let initial = self.initial.clone().unwrap_or_else(|| vec![0.0; dimension]);
-        counted("numbers in initial", initial.len(), (dimension, dimension))?;
+        if initial.len() != dimension {
+            return Err(ModelError::StateLength { given: initial.len(), needed: dimension });
+        }
         for value in &initial {
             ModelError::check("initial", *value, (-1e6, 1e6), "")?;
         }

@@ -10,7 +10,8 @@
 //!   coupled-mode boundary that keeps the electrical circuit the published ones leave out.
 //! * [`dynamics`] integrates: the classical Runge-Kutta run of the paper, and an error-controlled exponential
 //!   collocation that does the same run a thousand times faster.
-//! * [`number`] writes numbers for people, here and in the page.
+//! * [`number`] writes numbers for people, here and in the page; a [`sentence`] is what they will read, before it is put into
+//!   a language.
 //!
 //! Dependencies point one way: dynamics, theory -> model. Everything is dimensionless unless a docstring names
 //! a unit; time is counted in units of `sqrt(m_b L^3 / (E I))`, lengths in units of the beam's length, voltages in
@@ -19,4 +20,5 @@
 pub mod dynamics;
 pub mod model;
 pub mod number;
+pub mod sentence;
 pub mod theory;

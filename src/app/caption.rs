@@ -1,13 +1,12 @@
 //! What is computed here about a figure of the paper, in sentences whose numbers come from the model.
 
-use std::fmt::Display;
-
 use super::comparison::ExactRun;
 use super::figures::{BoundaryFigure, Figure, MARKED_EXCITATION};
 use super::session::{Session, Shown};
 use super::widgets::number::significant;
 use crate::app::text::{fill, tr};
 use crate::dynamics::Outcome;
+use crate::sentence::Say;
 use crate::theory::SteadyState;
 
 /// The sentences for `figure`.
@@ -94,7 +93,7 @@ fn theory_against_run(shown: &Shown) -> Option<String> {
     let theory = SteadyState::new(&shown.run.system).ok()?.voltage.root_mean_square();
     let off = 100.0 * (theory / shown.run.summary?.v_rms - 1.0);
     let (volts, percent) = (significant(theory, 3), significant(off.abs(), 2));
-    let values: [(&str, &dyn Display); 2] = [("volts", &volts), ("percent", &percent)];
+    let values: [(&str, &dyn Say); 2] = [("volts", &volts), ("percent", &percent)];
     Some(if off >= 0.0 {
         fill("First-order theory says {volts} V rms, {percent} % above.", &values)
     } else {

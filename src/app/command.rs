@@ -10,6 +10,7 @@ use crate::app::text::Language;
 use crate::export::Format;
 use crate::model::Parameter;
 use crate::scenario::Scenario;
+use crate::sentence::Sentence;
 
 /// A wish of the user.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +34,7 @@ pub(super) enum Command {
     /// Do something with the live run.
     Live(LiveAction),
     /// Take a changed device over, or say why it is none.
-    Adopt(Result<Box<Scenario>, String>),
+    Adopt(Result<Box<Scenario>, Sentence>),
     /// Go on in the lessons.
     Lesson(Action),
     /// Begin the search for a design, or end it.

@@ -13,6 +13,7 @@ use std::cell::Cell;
 use super::text::{fill, tr};
 use super::view::Panel;
 use crate::model::{Dimension, Parameter};
+use crate::sentence::Say;
 
 /// Characters of an unknown name that are repeated, and names that are.
 const SHOWN_CHARACTERS: usize = 24;
@@ -170,7 +171,7 @@ fn complaint(name: &str, unknown: &[String], allowed: &[&str]) -> Option<String>
         return None;
     }
     let named = unknown[..unknown.len().min(SHOWN_NAMES)].join(", ");
-    let values: [(&str, &dyn std::fmt::Display); 3] =
+    let values: [(&str, &dyn Say); 3] =
         [("name", &name), ("unknown", &named), ("allowed", &allowed.join(", "))];
     Some(fill("Not understood in {name}: {unknown}. There are {allowed}.", &values))
 }

@@ -9,6 +9,7 @@ use super::reading::Reading;
 use super::session::Status;
 use super::text::{self, Language};
 use super::view::{Tab, View};
+use crate::sentence::Sentence;
 
 /// The entries that have native controls, by their names in links and in `index.html`.
 const ENTRIES: [&str; 6] = ["alpha", "beta", "omega", "modes", "force", "tab"];
@@ -20,7 +21,7 @@ pub struct Signs {
     steps: (bool, bool),
     /// Number of the answer behind the verdict, once nothing is being computed that would change it.
     answer: Option<u64>,
-    failure: Option<String>,
+    failure: Option<Sentence>,
     /// A change of language has the verdict spoken again.
     language: Language,
 }
@@ -36,7 +37,7 @@ impl App {
             answer: self.session.shown.as_ref().filter(|_| rests).map(|shown| shown.generation),
             language: text::language(),
             failure: match status {
-                Status::Failed(message) => Some(message),
+                Status::Failed(why) => Some(why),
                 _ => None,
             },
         }
@@ -55,7 +56,7 @@ impl App {
         let entries: Map<String, Value> =
             entries.into_iter().map(|(name, text)| (name.to_owned(), Value::from(text))).collect();
         let spoken = match (&signs.failure, signs.answer) {
-            (Some(message), _) => Value::from(text::reworded(message)),
+            (Some(why), _) => Value::from(text::say(why)),
             (None, Some(_)) => self.spoken_verdict().map_or(Value::Null, Value::from),
             (None, None) => Value::Null,
         };

@@ -280,7 +280,7 @@ impl App {
     /// # Errors
     /// One line that says what is wrong; nothing changes then.
     pub fn load_json(&mut self, json: &str) -> Result<(), String> {
-        let view = View::read(json, &self.view)?;
+        let view = View::read(json, &self.view).map_err(|why| why.to_string())?;
         self.replace(view, true);
         Ok(())
     }

@@ -3,7 +3,7 @@
 use super::map::Boundaries;
 use super::session::Shown;
 use super::widgets::number::{significant, with_unit};
-use crate::app::text::{fill, motion_in_words, reworded, tr};
+use crate::app::text::{fill, say, tr};
 use crate::dynamics::attractors::motion::Motion;
 use crate::dynamics::attractors::verdict::{ForcedSummary, Verdict, Warning, force_law_warning};
 use crate::dynamics::{Instability, Outcome};
@@ -45,13 +45,13 @@ impl Reading {
         match verdict {
             Some(verdict) => {
                 remarks.extend(verdict.forced.as_ref().and_then(|forced| forced_motion(forced, verdict)));
-                remarks.extend(verdict.coexists.iter().map(|other| reworded(&other.to_string())));
+                remarks.extend(verdict.coexists.iter().map(|other| say(other)));
                 remarks.extend(disagreement(verdict));
-                remarks.extend(verdict.warnings.iter().map(|warning| reworded(&warning.to_string())));
+                remarks.extend(verdict.warnings.iter().map(|warning| say(warning)));
             }
             None => {
                 remarks.extend(settling(shown));
-                remarks.extend(force_law(shown).map(|warning| reworded(&warning.to_string())));
+                remarks.extend(force_law(shown).map(|warning| say(&warning)));
             }
         }
         remarks.extend(boundaries.and_then(|boundaries| theories(shown, boundaries)));
@@ -85,9 +85,7 @@ fn headline(motion: Motion) -> (Tone, String) {
         Motion::Contact { time } => {
             (Tone::Alarming, fill("Contact at t = {time}", &[("time", &significant(time, 4))]))
         }
-        Motion::Undecided { why } => {
-            (Tone::Notable, fill("Undecided: {why}", &[("why", &reworded(&why.to_string()))]))
-        }
+        Motion::Undecided { why } => (Tone::Notable, fill("Undecided: {why}", &[("why", &why)])),
     }
 }
 
@@ -165,10 +163,7 @@ fn forced_motion(forced: &ForcedSummary, verdict: &Verdict) -> Option<String> {
 
 fn disagreement(verdict: &Verdict) -> Option<String> {
     (!verdict.disagreeing.is_empty()).then(|| {
-        fill(
-            "by the run alone: {motion}; other evidence contradicts it",
-            &[("motion", &motion_in_words(verdict.suspected))],
-        )
+        fill("by the run alone: {motion}; other evidence contradicts it", &[("motion", &verdict.suspected)])
     })
 }
 

@@ -47,7 +47,7 @@ pub(super) fn state(view: &View, session: &Session, studies: &Studies) -> String
     let (status, error) = match session.status() {
         Status::Done => ("done", None),
         Status::Computing(_) => ("computing", None),
-        Status::Failed(message) => ("failed", Some(message)),
+        Status::Failed(why) => ("failed", Some(why.to_string())),
     };
     let result = session.shown.as_ref().map(|shown| Answer {
         scenario: &shown.scenario,

@@ -9,6 +9,7 @@ use super::figures::Figure;
 use super::map::{Boundaries, structure};
 use crate::questions::{Run, RunJob};
 use crate::scenario::Scenario;
+use crate::sentence::Sentence;
 
 /// Time a frame may spend on computing.
 const BUDGET_MS: f64 = 7.0;
@@ -38,7 +39,7 @@ pub(super) enum Status {
     /// Under way: done part, 0 to 1.
     Computing(f64),
     /// It has no answer; what is shown is older.
-    Failed(String),
+    Failed(Sentence),
 }
 
 /// A run under way.
@@ -58,7 +59,7 @@ pub(super) struct Session {
     waiting: Option<Scenario>,
     asked: Option<Scenario>,
     work: Option<Work>,
-    failure: Option<String>,
+    failure: Option<Sentence>,
     /// The newest answer.
     pub shown: Option<Shown>,
     /// Boundaries of the structure in view.
@@ -93,8 +94,8 @@ impl Session {
 
     /// Where the newest question stands.
     pub(super) fn status(&self) -> Status {
-        if let Some(message) = &self.failure {
-            Status::Failed(message.clone())
+        if let Some(why) = &self.failure {
+            Status::Failed(why.clone())
         } else if let Some(work) = &self.work {
             Status::Computing(work.job.progress())
         } else if self.waiting.is_some() {
@@ -113,7 +114,7 @@ impl Session {
             match work.job.advance(SLICE) {
                 Ok(Some(run)) => self.show(work, run),
                 Ok(None) => self.work = Some(work),
-                Err(error) => self.fail(work.generation, error.to_string()),
+                Err(error) => self.fail(work.generation, error.into()),
             }
         }
     }
@@ -142,7 +143,7 @@ impl Session {
         match RunJob::new(&scenario) {
             Ok(job) => Some(Work { generation, scenario, job, started: now }),
             Err(error) => {
-                self.fail(generation, error.to_string());
+                self.fail(generation, error.into());
                 None
             }
         }
@@ -160,9 +161,9 @@ impl Session {
         self.shown = Some(Shown { generation: work.generation, scenario: work.scenario, run, curves });
     }
 
-    fn fail(&mut self, generation: u64, message: String) {
+    fn fail(&mut self, generation: u64, why: Sentence) {
         if generation == self.generation {
-            self.failure = Some(message);
+            self.failure = Some(why);
         }
     }
 

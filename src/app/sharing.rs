@@ -6,9 +6,10 @@ use super::lessons::course;
 use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
-use crate::app::text::{fill, reworded, tr};
-use crate::questions::design::measured;
+use crate::app::text::fill;
+use crate::questions::design::measured::{self, MeasuredError};
 use crate::questions::input::{self, NoText};
+use crate::sentence::{Say as _, Sentence, said};
 
 /// Name of saved files.
 const FILE_NAME: &str = "harvester-scenario.json";
@@ -24,11 +25,11 @@ pub const FIRST: usize = measured::FIRST;
 ///
 /// # Errors
 /// One sentence that says why the file cannot be used.
-pub fn look(name: &str, first: &[u8], size: usize) -> Result<(), String> {
+pub fn look(name: &str, first: &[u8], size: usize) -> Result<(), Sentence> {
     if !is_scenario(name, first) {
-        return measured::look(first, size).map_err(|error| error.to_string());
+        return measured::look(first, size).map_err(Sentence::from);
     }
-    if size > LARGEST_FILE { Err(tr("it is too large for a scenario").to_owned()) } else { Ok(()) }
+    if size > LARGEST_FILE { Err(said("it is too large for a scenario", &[])) } else { Ok(()) }
 }
 
 /// Whether a file of this name and contents is meant as a scenario; it holds measured data otherwise.
@@ -70,7 +71,7 @@ impl App {
 
     /// Shows what a file holds, as one step: a scenario, or measured data, which brings its page to the front. A bad
     /// scenario changes nothing but the notice.
-    pub fn open_file(&mut self, name: &str, contents: Result<Vec<u8>, String>) {
+    pub fn open_file(&mut self, name: &str, contents: Result<Vec<u8>, Sentence>) {
         let contents = contents.and_then(|bytes| look(name, &bytes, bytes.len()).map(|()| bytes));
         let contents = match contents {
             Ok(bytes) if !is_scenario(name, &bytes) => return self.import(name, bytes),
@@ -84,7 +85,7 @@ impl App {
             Err(reason) => {
                 self.notice = Some(fill(
                     "{name} could not be opened: {reason}. Nothing was changed.",
-                    &[("name", &name), ("reason", &reworded(&reason))],
+                    &[("name", &name), ("reason", &reason)],
                 ));
             }
         }
@@ -98,13 +99,13 @@ impl App {
         self.bench.measured.open(name, text);
     }
 
-    fn read_file(&self, bytes: Vec<u8>) -> Result<View, String> {
+    fn read_file(&self, bytes: Vec<u8>) -> Result<View, Sentence> {
         let text = input::text(&bytes).map_err(|problem| match problem {
-            NoText::Utf16 => tr("it is UTF-16 text: save it as UTF-8").to_owned(),
-            NoText::Other => tr("it is not a text").to_owned(),
+            NoText::Utf16 => MeasuredError::Utf16.say(),
+            NoText::Other => said("it is not a text", &[]),
         })?;
         if !text.trim_start().starts_with('{') {
-            return Err(tr("it is not a scenario, which begins with {").to_owned());
+            return Err(said("it is not a scenario, which begins with {", &[]));
         }
         Ok(View::read(text, &self.view)?.with_looks_of(&self.view))
     }
@@ -216,7 +217,7 @@ mod tests {
             ("old.csv", b"\xff\xfe1\0,\0".to_vec(), 6, "UTF-16"),
         ] {
             let reason = look(name, &first, size).expect_err("unfit");
-            assert!(reason.contains(part), "{reason}");
+            assert!(reason.to_string().contains(part), "{reason}");
         }
         assert_eq!(look("good.csv", &row(100), 60_000_000), Ok(()));
         app.open_file("sound.wav", Ok(b"RIFF\0\0".to_vec()));

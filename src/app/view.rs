@@ -19,11 +19,12 @@ use self::salvage::salvage;
 pub use self::sweep::{Output, SweepView};
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
-use crate::app::text::{Language, fill, reworded};
+use crate::app::text::{Language, fill};
 use crate::model::{ModelError, Parameter};
 use crate::questions::curves;
 use crate::questions::input::{self, FieldError};
 use crate::scenario::{Scenario, counted};
+use crate::sentence::{Sentence, said};
 
 /// Scenario and view, as stored.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -96,35 +97,35 @@ impl View {
     /// without the ten numbers has the numbers of the device.
     ///
     /// # Errors
-    /// One line with the path of the field and what is wrong with it.
-    pub fn read(json: &str, present: &Self) -> Result<Self, String> {
-        Self::of_value(input::json(json).map_err(|error| error.to_string())?, present)
+    /// The path of the field and what is wrong with it.
+    pub fn read(json: &str, present: &Self) -> Result<Self, Sentence> {
+        Self::of_value(input::json(json)?, present)
     }
 
-    fn of_value(value: Value, present: &Self) -> Result<Self, String> {
+    fn of_value(value: Value, present: &Self) -> Result<Self, Sentence> {
         if !value.is_object() {
-            return Err("expected an object such as {\"parameters\":{\"omega\":25}}".to_owned());
+            let example = "{\"parameters\":{\"omega\":25}}";
+            return Err(said("expected an object such as {example}", &[("example", &example)]));
         }
         let is_view = value.get("scenario").is_some();
         let scenario = value.get("scenario").unwrap_or(&value);
         let numbers_follow = scenario.get("parameters").is_none();
-        let said = |error: FieldError| error.to_string();
         let mut view = if is_view {
-            input::fields(&value).map_err(said)?
+            input::fields(&value)?
         } else {
-            Self { scenario: input::fields(&value).map_err(said)?, ..present.clone() }
+            Self { scenario: input::fields(&value)?, ..present.clone() }
         };
         if let Some(device) = view.scenario.device.filter(|_| numbers_follow) {
             let scaling = view.scenario.scaling;
-            view.scenario.set_device(device, scaling).map_err(|error| error.to_string())?;
+            view.scenario.set_device(device, scaling)?;
         }
         view.check().map_err(|(_, reason)| reason)?;
         Ok(view)
     }
 
-    /// A view as JSON, not yet checked. An error has the path of the field and what is wrong with it.
-    pub(super) fn from_value(value: Value) -> Result<Self, String> {
-        input::fields(&value).map_err(|error| error.to_string())
+    /// A view as JSON, not yet checked.
+    pub(super) fn from_value(value: Value) -> Result<Self, FieldError> {
+        input::fields(&value)
     }
 
     /// As JSON.
@@ -134,8 +135,8 @@ impl View {
     }
 
     /// Checks everything. An error names the part that is wrong, as in JSON, and says why.
-    pub(super) fn check(&self) -> Result<(), (&'static str, String)> {
-        let part = |name| move |error: ModelError| (name, error.to_string());
+    pub(super) fn check(&self) -> Result<(), (&'static str, Sentence)> {
+        let part = |name| move |error: ModelError| (name, error.into());
         self.scenario.validate().map_err(part("scenario"))?;
         self.sweep.check().map_err(part("sweep"))?;
         self.design.check().map_err(part("design"))?;
@@ -144,7 +145,8 @@ impl View {
         let [x, y] = self.plane;
         if x == y || ![x, y].iter().all(|axis| curves::PARAMETERS.contains(axis)) {
             let allowed = curves::PARAMETERS.map(Parameter::field).join(", ");
-            return Err(("plane", format!("plane: two different ones of {allowed}")));
+            let reason = said("plane: two different ones of {names}", &[("names", &allowed)]);
+            return Err(("plane", reason));
         }
         Ok(())
     }
@@ -158,7 +160,7 @@ impl View {
     /// What an earlier session stored, less the parts that cannot be used, and a sentence about those.
     pub fn restore(stored: Option<&str>) -> (Self, Option<String>) {
         let Some(text) = stored else { return (Self::default(), None) };
-        let read = input::json(text).map_err(|error| error.to_string());
+        let read = input::json(text).map_err(Sentence::from);
         match read.and_then(|value| salvage(value, |value| Self::of_value(value, &Self::default()))) {
             Ok((view, dropped)) if dropped.is_empty() => (view, None),
             Ok((view, dropped)) => {
@@ -172,7 +174,7 @@ impl View {
             Err(reason) => {
                 let message = fill(
                     "The stored state could not be used ({reason}); this is a fresh start.",
-                    &[("reason", &reworded(&reason))],
+                    &[("reason", &reason)],
                 );
                 (Self::default(), Some(message))
             }
@@ -198,7 +200,7 @@ mod tests {
         let both = read(&format!(r#"{{{device},"parameters":{{"beta":0.002}}}}"#)).expect("both").scenario;
         assert_eq!((both.parameters.beta, both.parameters.kappa), (0.002, 1e-6));
         let bad = read(r#"{"device":{"beam_length":-1}}"#).expect_err("no beam");
-        assert!(bad.contains("beam_length"), "{bad}");
+        assert!(bad.to_string().contains("beam_length"), "{bad}");
     }
 
     #[test]

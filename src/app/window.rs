@@ -8,10 +8,10 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use super::App;
 use super::crew::{Crew, Workers};
-use crate::scheduler::{Finding, Work};
+use crate::scheduler::{Failure, Finding, Work};
 
 /// A worker, the number of its piece, and what it found.
-type Report = (usize, u64, Result<Finding, String>);
+type Report = (usize, u64, Result<Finding, Failure>);
 
 /// The threads of rayon as workers.
 struct Threads {

@@ -21,7 +21,7 @@ impl Piece for Solve {
     type Found = String;
 
     fn carry_out(&self) -> Result<String, Failure> {
-        Ok(solve(&self.request)?)
+        solve(&self.request).map_err(Failure::Verbatim)
     }
 }
 
@@ -54,7 +54,7 @@ impl Study for Answers {
         self.under_way += 1;
         Some(Order::new(Solve { request }, move |answers: &mut Self, found| {
             answers.under_way = answers.under_way.saturating_sub(1);
-            answers.answered.push((number, found));
+            answers.answered.push((number, found.map_err(|failure| failure.to_string())));
         }))
     }
 

@@ -88,7 +88,7 @@ pub struct CurvesStudy {
     traced: Vec<(usize, Start)>,
     handed: usize,
     returned: usize,
-    failures: Vec<String>,
+    failures: Vec<Failure>,
 }
 
 impl CurvesStudy {
@@ -101,7 +101,7 @@ impl CurvesStudy {
             .and_then(|(system, _)| search_lines(&system, &question.plane, Search::default()));
         let (mut lines, failures) = match lines {
             Ok(lines) => (lines, Vec::new()),
-            Err(error) => (Vec::new(), vec![error.to_string()]),
+            Err(error) => (Vec::new(), vec![error.into()]),
         };
         lines.reverse();
         let known = KnownCurves::new(question.plane);
@@ -123,7 +123,7 @@ impl CurvesStudy {
     }
 
     /// What kept lines from being searched and starts from being traced.
-    pub fn failures(&self) -> &[String] {
+    pub fn failures(&self) -> &[Failure] {
         &self.failures
     }
 

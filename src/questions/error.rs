@@ -9,6 +9,7 @@ use super::input::{self, FieldError, JsonError};
 use crate::dynamics::attractors::verdict::VerdictError;
 use crate::dynamics::{IntegrationError, OrbitError};
 use crate::model::{ModelError, Parameter};
+use crate::scheduler::Failure;
 use crate::theory::TheoryError;
 
 /// Why a request has no answer; each is one line.
@@ -82,10 +83,10 @@ pub(super) fn read<T: DeserializeOwned>(value: &Value) -> Result<T, RequestError
 }
 
 /// An error of a field with the allowed range.
-pub(super) fn with_range(FieldError { path, problem }: FieldError) -> RequestError {
+pub(super) fn with_range(FieldError { path, problem, .. }: FieldError) -> RequestError {
     let problem = match range(&path) {
         Some((low, high)) => format!("{problem}: allowed are {low} to {high}"),
-        None => problem,
+        None => problem.to_string(),
     };
     RequestError::Field { field: if path == "." { "request".into() } else { path }, problem }
 }
@@ -101,8 +102,8 @@ impl RequestError {
 }
 
 /// A failure of a study as that of a request.
-pub(super) fn failed(message: Option<&str>) -> Result<(), RequestError> {
-    message.map_or(Ok(()), |message| Err(RequestError::Study(message.to_owned())))
+pub(super) fn failed(failure: Option<&Failure>) -> Result<(), RequestError> {
+    failure.map_or(Ok(()), |failure| Err(RequestError::Study(failure.to_string())))
 }
 
 /// The range of the number at a path such as `parameters.beta`, `omega[3]` or `omega.from`, where it has one.

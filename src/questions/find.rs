@@ -222,7 +222,7 @@ pub struct FindStudy {
     history: Vec<Candidate>,
     /// Every candidate with its evaluation, for a picture of the search.
     visited: Vec<Candidate>,
-    failure: Option<String>,
+    failure: Option<Failure>,
     stopped: bool,
 }
 
@@ -287,8 +287,8 @@ impl FindStudy {
     }
 
     /// Why the search ended early, if it did.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
     }
 
     /// The scenario of a candidate, to be loaded.

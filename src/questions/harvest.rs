@@ -196,7 +196,7 @@ impl Harvest {
         });
         Ok(Curves {
             branches: branches.iter().map(branch).collect(),
-            branches_missing: study.branches().and_then(Result::err).map(str::to_owned),
+            branches_missing: study.branches().and_then(Result::err).map(ToString::to_string),
             from_rest: study.from_rest().iter().map(|start| start.flatten().map(class)).collect(),
             up: study.swept(Direction::Up),
             down: study.swept(Direction::Down),
@@ -274,7 +274,7 @@ pub struct HarvestStudy {
     window: (f64, f64),
     plant: Plant,
     linear: LinearCurve,
-    branches: Option<Result<Vec<ResponseCurve>, String>>,
+    branches: Option<Result<Vec<ResponseCurve>, Failure>>,
     branches_handed: bool,
     sweeps: SweepStudy,
     starts: Vec<Option<Option<(Motion, HarvestPoint)>>>,
@@ -282,7 +282,7 @@ pub struct HarvestStudy {
     /// Known once all curves are.
     changes: Option<Vec<Change>>,
     changes_handed: usize,
-    failure: Option<String>,
+    failure: Option<Failure>,
 }
 
 impl HarvestStudy {
@@ -347,8 +347,8 @@ impl HarvestStudy {
     }
 
     /// The forced branch and the doubled ones; why there are none, or `None` until they are known.
-    pub fn branches(&self) -> Option<Result<&[ResponseCurve], &str>> {
-        self.branches.as_ref().map(|found| found.as_deref().map_err(String::as_str))
+    pub fn branches(&self) -> Option<Result<&[ResponseCurve], &Failure>> {
+        self.branches.as_ref().map(|found| found.as_deref())
     }
 
     /// A branch's points in SI units, each with whether it is stable.
@@ -377,8 +377,8 @@ impl HarvestStudy {
     }
 
     /// Why something is missing, if it is and will stay so.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref().or_else(|| self.sweeps.failure())
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref().or_else(|| self.sweeps.failure())
     }
 
     /// The stable pieces of all branches.

@@ -9,10 +9,13 @@ use serde_json::error::Category;
 use serde_json::{Map, Number, Value};
 use thiserror::Error;
 
+use crate::sentence::{Say, Sentence, said};
+
 mod fields;
 mod words;
 
 pub use fields::{FieldError, fields, known_fields};
+pub use words::one_of;
 
 /// Most characters of the input that a message repeats in one piece.
 const REPEATED: usize = 80;
@@ -56,26 +59,35 @@ pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
 
 /// Why a text is no JSON that can be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}", self.say())]
 pub enum JsonError {
-    /// It is not JSON.
-    #[error("not valid JSON: {0}")]
-    Syntax(String),
+    /// It is not JSON, and why.
+    Syntax(Sentence),
     /// A name stands twice in one object; which of the two is meant, nobody knows.
-    #[error("{path} is given twice")]
     Twice {
         /// Where, such as `parameters.beta`.
         path: String,
     },
     /// A text far too long for a name or a word.
-    #[error(
-        "{path}: a text of {length} characters stands where names and words are, which have at most {LONGEST}"
-    )]
     Long {
         /// Its place in the input, as names and indices.
         path: String,
         /// How long it is.
         length: usize,
     },
+}
+
+impl Say for JsonError {
+    fn say(&self) -> Sentence {
+        match self {
+            Self::Syntax(problem) => said("not valid JSON: {problem}", &[("problem", problem)]),
+            Self::Twice { path } => said("{path} is given twice", &[("path", path)]),
+            Self::Long { path, length } => said(
+                "{path}: a text of {length} characters stands where names and words are, which have at most {most}",
+                &[("path", path), ("length", length), ("most", &LONGEST)],
+            ),
+        }
+    }
 }
 
 /// Reads JSON. A byte order mark before it is passed; a name given twice in an object, at any depth, is an error, where
@@ -106,10 +118,10 @@ pub fn cut(text: &str) -> String {
 }
 
 /// What is wrong with the JSON, and where.
-fn syntax(error: &serde_json::Error) -> String {
+fn syntax(error: &serde_json::Error) -> Sentence {
     let place = format!("line {}, column {}", error.line(), error.column());
     if error.classify() == Category::Eof {
-        return format!("it ends too early ({place})");
+        return said("it ends too early ({place})", &[("place", &place)]);
     }
     let text = error.to_string();
     let what = text.split(" at line ").next().unwrap_or_default();
@@ -122,7 +134,7 @@ fn syntax(error: &serde_json::Error) -> String {
         "number out of range" => "a number is too large",
         other => other,
     };
-    format!("{what} ({place})")
+    Sentence::Verbatim(format!("{what} ({place})"))
 }
 
 /// Where in the JSON.
@@ -247,7 +259,8 @@ mod tests {
         let text = r#"{"a":[1,-2,2.5e-3,true,null,"é\n"],"b":{"c":{}},"d":18446744073709551615,"e":[]}"#;
         assert_eq!(
             json(text),
-            serde_json::from_str::<Value>(text).map_err(|_| JsonError::Syntax(String::new()))
+            serde_json::from_str::<Value>(text)
+                .map_err(|_| JsonError::Syntax(Sentence::Verbatim(String::new())))
         );
         assert_eq!(json("\u{feff} {\"a\": 1e-300}\r\n"), Ok(json!({ "a": 1e-300 })));
     }

@@ -1,8 +1,6 @@
 //! Everything about the motion of one scenario that takes longer than a frame: the verdict, and what it rests on in a
 //! form that can be drawn.
 
-use serde::{Deserialize, Serialize};
-
 use crate::dynamics::{Inquiry, Orbit, Verdict};
 use crate::scenario::Scenario;
 use crate::scheduler::{Failure, Piece};
@@ -13,7 +11,7 @@ const SPECTRUM_POINTS: usize = 1200;
 const BEYOND_PEAKS: f64 = 1.3;
 
 /// A periodic motion by its multipliers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Multipliers {
     /// Its period in excitation periods.
     pub periods: usize,
@@ -29,7 +27,7 @@ impl From<&Orbit> for Multipliers {
 }
 
 /// The verdict and its evidence.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Inspection {
     /// The verdict.
     pub verdict: Verdict,
@@ -61,7 +59,7 @@ impl Piece for Inspect {
 /// Inspects the motion that `scenario` leads to.
 ///
 /// # Errors
-/// One sentence that says what is out of range, or why there is no verdict.
+/// What is out of range, or why there is no verdict.
 pub fn inspect(scenario: &Scenario) -> Result<Inspection, Failure> {
     let (system, initial) = scenario.validate()?;
     let Inquiry { verdict, reached, spectrum, forced } = Inquiry::new(&system, &initial, scenario.t_end)?;
@@ -93,6 +91,8 @@ fn drawn(amplitudes: &[f64], spacing: f64, top: f64) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use nanoserde::{DeBin as _, SerBin as _};
+
     use super::*;
     use crate::dynamics::attractors::motion::Motion;
     use crate::model::ParameterSet;
@@ -102,8 +102,7 @@ mod tests {
         let parameters = ParameterSet { alpha: 1e-4, beta: 1e-2, omega: 8.0969, ..Default::default() };
         let found = inspect(&Scenario { parameters, ..Default::default() }).expect("Figure 9");
         assert_eq!(found.verdict.motion, Motion::Periodic { periods: 2 });
-        let text = serde_json::to_string(&found).expect("plain data");
-        assert_eq!(serde_json::from_str::<Inspection>(&text).expect("the same"), found);
+        assert_eq!(Inspection::deserialize_bin(&found.serialize_bin()).expect("the same"), found);
         // The forced motion's multiplier of an independent program, and the line at half the excitation frequency.
         let forced = found.forced.expect("a forced motion");
         assert!((forced.values[0][0] + 1.148382).abs() < 1e-6, "{:?}", forced.values[0]);

@@ -26,7 +26,7 @@ use super::verdict::Verdict;
 use crate::model::Limits;
 use crate::scheduler::lane::Traffic;
 use crate::scheduler::piece::Hand;
-use crate::scheduler::{Lane, Lanes, Single, Study, Table};
+use crate::scheduler::{Failure, Lane, Lanes, Single, Study, Table};
 
 /// What requests may ask: the native command, JavaScript, and programs that the page writes.
 pub const TASKS: [Task; 15] = [
@@ -104,8 +104,9 @@ pub fn lanes() -> Lanes {
 /// Carries out a piece that came as bytes, on behalf of whoever sent it; what it found as bytes.
 ///
 /// # Errors
-/// One sentence, as [`Piece::carry_out`](crate::scheduler::Piece::carry_out).
-pub fn carry_out(name: &str, message: &[u8]) -> Result<Vec<u8>, String> {
-    let hand = HANDS.iter().find(|hand| hand.name == name).ok_or_else(|| format!("no piece is a {name}"))?;
+/// As [`Piece::carry_out`](crate::scheduler::Piece::carry_out).
+pub fn carry_out(name: &str, message: &[u8]) -> Result<Vec<u8>, Failure> {
+    let unknown = || Failure::Verbatim(format!("no piece is a {name}"));
+    let hand = HANDS.iter().find(|hand| hand.name == name).ok_or_else(unknown)?;
     (hand.carry_out)(message)
 }

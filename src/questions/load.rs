@@ -207,7 +207,7 @@ pub struct LoadStudy {
     reached: Vec<Option<LoadPoint>>,
     best: Vec<Option<BestFrequency>>,
     best_handed: usize,
-    failure: Option<String>,
+    failure: Option<Failure>,
 }
 
 impl LoadStudy {
@@ -289,8 +289,8 @@ impl LoadStudy {
     }
 
     /// Why something is missing, if it is and will stay so.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
     }
 
     fn next_in_chain(&mut self) -> Option<Order<Self>> {

@@ -11,7 +11,7 @@ use super::question::Question;
 use crate::model::{Limits, ModelError};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::{Mosaic, Place};
-use crate::scheduler::{Asked, Budget, Order, Study, complete_within};
+use crate::scheduler::{Asked, Budget, Failure, Order, Study, complete_within};
 use crate::spacing::between;
 
 /// Columns and rows a map may have.
@@ -138,7 +138,7 @@ pub struct DesignMap {
     question: FindQuestion,
     size: (usize, usize),
     tiles: Mosaic<Evaluation>,
-    failure: Option<String>,
+    failure: Option<Failure>,
     version: u64,
 }
 
@@ -195,8 +195,8 @@ impl DesignMap {
     }
 
     /// Why the map is incomplete, if it is and will stay so.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
     }
 }
 

@@ -64,7 +64,7 @@ impl Question for Materials {
         let mut table = self.table(&scenario);
         complete_within(&mut table, budget);
         let rows = table.found().flatten().map(|row| {
-            let row = row.map_err(|message| RequestError::Study(message.to_owned()))?.clone();
+            let row = row.map_err(|failure| RequestError::Study(failure.to_string()))?.clone();
             let material = row.ceramic.material();
             Ok(NamedRow {
                 name: material.name,

@@ -6,7 +6,7 @@ use crate::dynamics::attractors::signature::Signature;
 use crate::model::{ModelError, Units};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::{Mosaic, Place};
-use crate::scheduler::{Asked, Order, Study};
+use crate::scheduler::{Asked, Failure, Order, Study};
 use crate::spacing::between;
 
 /// Columns and rows a chart may have.
@@ -89,7 +89,7 @@ pub struct MotionChart {
     tiles: Mosaic<Tile>,
     /// Cells of the next piece.
     piece: usize,
-    failure: Option<String>,
+    failure: Option<Failure>,
     version: u64,
 }
 
@@ -107,8 +107,8 @@ impl MotionChart {
     }
 
     /// Why the chart is incomplete, if it is and will stay so.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
     }
 
     /// What is shown at a cell: its own motion, or that of the computed one nearest to it. The outer `None`: nothing is
@@ -141,7 +141,7 @@ impl MotionChart {
     pub(super) fn settle(
         &mut self,
         places: Vec<Place>,
-        found: Result<Vec<Option<Signature>>, String>,
+        found: Result<Vec<Option<Signature>>, Failure>,
         mut group: impl FnMut(Option<Signature>, [f64; 2]) -> usize,
     ) {
         self.version += 1;
@@ -255,8 +255,8 @@ mod tests {
     fn a_failed_piece_ends_the_chart() {
         let mut chart = MotionChart::new(question((16, 16)));
         let order = chart.next().expect("work");
-        order.found(&mut chart, Err("no".to_owned()));
+        order.found(&mut chart, Err(Failure::Verbatim("no".to_owned())));
         assert!(chart.finished() && chart.next().is_none());
-        assert_eq!(chart.failure(), Some("no"));
+        assert_eq!(chart.failure().map(ToString::to_string).as_deref(), Some("no"));
     }
 }

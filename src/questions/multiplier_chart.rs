@@ -65,7 +65,7 @@ pub struct MultiplierChart {
     handed: Vec<bool>,
     handed_coarse: Vec<bool>,
     known: usize,
-    failure: Option<String>,
+    failure: Option<Failure>,
     version: u64,
 }
 
@@ -94,8 +94,8 @@ impl MultiplierChart {
     }
 
     /// Why the chart is incomplete, if it is and will stay so.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
     }
 
     /// Modulus and absolute argument at a cell, or at the computed one nearest to it. The outer `None`: nothing is

@@ -3,8 +3,8 @@
 use crate::dynamics::attractors::poincare::{PhasePoint, Recurrence, recurrence};
 use crate::dynamics::integration::Step;
 use crate::dynamics::integration::summary::{Collector, Envelope, Summary};
-use crate::dynamics::{Collocation, IntegrationError, Outcome, Settings, Trajectory};
-use crate::model::{ModelError, ReducedSystem};
+use crate::dynamics::{Collocation, Outcome, RunError, Settings, Trajectory};
+use crate::model::ReducedSystem;
 use crate::scenario::Scenario;
 
 /// Slices of the voltage's envelope; about as many as a plot has pixels.
@@ -43,7 +43,7 @@ impl Run {
     /// Computes the whole run of `scenario` at once.
     ///
     /// # Errors
-    /// One sentence that says what is out of range or cannot be resolved.
+    /// [`RunError`].
     pub fn compute(scenario: &Scenario) -> Result<Self, RunError> {
         let mut job = RunJob::new(scenario)?;
         loop {
@@ -52,17 +52,6 @@ impl Run {
             }
         }
     }
-}
-
-/// Why a run has no result.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// The scenario describes no device.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// The motion cannot be integrated.
-    #[error(transparent)]
-    Integration(#[from] IntegrationError),
 }
 
 /// A run being computed.
@@ -111,7 +100,7 @@ impl RunJob {
     /// Goes on for at most `steps` steps; the finished run once there is one.
     ///
     /// # Errors
-    /// [`IntegrationError`] when the motion cannot be resolved.
+    /// [`RunError`] when the motion cannot be resolved.
     pub fn advance(&mut self, steps: usize) -> Result<Option<Run>, RunError> {
         let Some(mut recorder) = self.recorder.take() else { return Ok(None) };
         let outcome =

@@ -207,7 +207,7 @@ pub struct SweepStudy {
     /// With the device, and the state from which the first value starts.
     asked: (Scenario, Sweep),
     ways: Vec<Way>,
-    failure: Option<String>,
+    failure: Option<Failure>,
 }
 
 impl SweepStudy {
@@ -242,8 +242,8 @@ impl SweepStudy {
     }
 
     /// Why the sweep ended early, if it did.
-    pub fn failure(&self) -> Option<&str> {
-        self.failure.as_deref()
+    pub fn failure(&self) -> Option<&Failure> {
+        self.failure.as_ref()
     }
 }
 

@@ -39,7 +39,7 @@ pub enum Traced {
     /// Its border; none when the forced motion stays stable within the window.
     Done(Option<Tongue>),
     /// Why it has none.
-    Failed(String),
+    Failed(Failure),
 }
 
 /// The tongues of one device.

@@ -54,11 +54,11 @@ pub struct TrustRow {
 }
 
 impl TrustRow {
-    fn new((modes, law): (usize, ForceLaw), found: Option<Result<&TrustEntry, &str>>) -> Self {
+    fn new((modes, law): (usize, ForceLaw), found: Option<Result<&TrustEntry, &Failure>>) -> Self {
         let nothing = TrustEntry { modes, law, value: None, motion: None };
         let (entry, reason) = match found {
             Some(Ok(entry)) => (entry.clone(), reason(entry)),
-            Some(Err(message)) => (nothing, Some(message.to_owned())),
+            Some(Err(failure)) => (nothing, Some(failure.to_string())),
             None => (nothing, Some("it was not computed".to_owned())),
         };
         Self { entry, reason }

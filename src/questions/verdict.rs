@@ -47,7 +47,7 @@ fn sentence(verdict: &dynamics::Verdict) -> String {
     let agreeing = verdict.rests_on.iter().filter(|piece| piece.agrees == Some(true));
     let ended = matches!(verdict.motion, Motion::Escape { .. } | Motion::Contact { .. });
     if !ended {
-        clauses.extend(agreeing.map(|piece| piece.says.clone()));
+        clauses.extend(agreeing.map(ToString::to_string));
     }
     clauses.extend(verdict.coexists.iter().map(ToString::to_string));
     clauses.extend(verdict.warnings.iter().map(ToString::to_string));

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::lane::{Ticket, Traffic};
-use super::piece::{Finding, Work};
+use super::piece::{Failure, Finding, Work};
 
 /// Done part of a study that counts as a first picture of it.
 const FIRST_PICTURE: f64 = 0.02;
@@ -62,7 +62,7 @@ impl Foreman {
         &mut self,
         worker: usize,
         number: u64,
-        finding: Result<Finding, String>,
+        finding: Result<Finding, Failure>,
         lanes: &mut [&mut dyn Traffic],
     ) {
         let Some(slot) = self.busy.get_mut(worker) else { return };

@@ -4,8 +4,9 @@ use std::any::Any;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::piece::{Finding, Work};
+use super::piece::{Failure, Finding, Work};
 use super::study::{Asked, Study, Take};
+use crate::sentence::said;
 
 /// How many workers may die over a piece before it counts as impossible.
 const MOST_DEATHS: u32 = 2;
@@ -93,7 +94,7 @@ pub trait Traffic: Any {
     /// The next piece.
     fn next(&mut self) -> Option<Ticket>;
     /// Takes a finding, unless it belongs to an older question.
-    fn take(&mut self, generation: u64, ticket: usize, finding: Result<Finding, String>);
+    fn take(&mut self, generation: u64, ticket: usize, finding: Result<Finding, Failure>);
     /// Takes back a piece whose worker died, unless it belongs to an older question.
     fn take_back(&mut self, generation: u64, ticket: Ticket);
     /// Done part, 0 to 1; `None` when nothing is being computed.
@@ -126,7 +127,7 @@ impl<S: Study> Traffic for Lane<S> {
         })
     }
 
-    fn take(&mut self, generation: u64, ticket: usize, finding: Result<Finding, String>) {
+    fn take(&mut self, generation: u64, ticket: usize, finding: Result<Finding, Failure>) {
         if generation != self.generation {
             return;
         }
@@ -148,8 +149,8 @@ impl<S: Study> Traffic for Lane<S> {
         if deaths < MOST_DEATHS {
             self.redo.push(Ticket { deaths, ..ticket });
         } else {
-            let message = "the computation stopped its worker twice and was given up";
-            self.take(generation, ticket.number, Err(message.to_owned()));
+            let failure = said("the computation stopped its worker twice and was given up", &[]);
+            self.take(generation, ticket.number, Err(failure));
         }
     }
 

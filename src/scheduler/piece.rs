@@ -7,6 +7,8 @@ use std::hash::{DefaultHasher, Hasher};
 
 use nanoserde::{DeBin, SerBin};
 
+use crate::sentence::{Sentence, said};
+
 /// A piece of work, done within a fraction of a second unless it says otherwise.
 pub trait Piece: SerBin + DeBin + Send + Sync + 'static {
     /// Its name on the way to a worker.
@@ -19,12 +21,12 @@ pub trait Piece: SerBin + DeBin + Send + Sync + 'static {
     /// Does the work.
     ///
     /// # Errors
-    /// One sentence that says what is out of range or cannot be computed.
+    /// What is out of range or cannot be computed.
     fn carry_out(&self) -> Result<Self::Found, Failure>;
 }
 
-/// Why a piece found nothing, in a sentence.
-pub type Failure = Box<dyn std::error::Error>;
+/// Why a piece found nothing.
+pub type Failure = Sentence;
 
 /// What was found, on its way back to whoever asked.
 pub enum Finding {
@@ -38,16 +40,18 @@ impl Finding {
     /// What a piece found that finds an `F`.
     ///
     /// # Errors
-    /// One sentence when the message is broken.
-    pub fn open<F: DeBin + 'static>(self) -> Result<F, String> {
+    /// When the message is broken.
+    pub fn open<F: DeBin + 'static>(self) -> Result<F, Failure> {
         match self {
-            Self::Here(found) => found.downcast().map(|found| *found).map_err(|_| BROKEN.to_owned()),
-            Self::Message(bytes) => F::deserialize_bin(&bytes).map_err(|error| error.to_string()),
+            Self::Here(found) => found.downcast().map(|found| *found).map_err(|_| broken()),
+            Self::Message(bytes) => F::deserialize_bin(&bytes).map_err(|_| broken()),
         }
     }
 }
 
-const BROKEN: &str = "the computation returned something else than asked for";
+fn broken() -> Failure {
+    said("the computation returned something else than asked for", &[])
+}
 
 /// A piece, whatever it finds.
 pub trait Work: Any + Send + Sync {
@@ -55,7 +59,7 @@ pub trait Work: Any + Send + Sync {
     ///
     /// # Errors
     /// As [`Piece::carry_out`].
-    fn carry_out(&self) -> Result<Finding, String>;
+    fn carry_out(&self) -> Result<Finding, Failure>;
     /// The piece as bytes, to be read by a [`Hand`] of its name.
     fn message(&self) -> Vec<u8>;
     /// Its name.
@@ -65,9 +69,8 @@ pub trait Work: Any + Send + Sync {
 }
 
 impl<P: Piece> Work for P {
-    fn carry_out(&self) -> Result<Finding, String> {
-        let found = Piece::carry_out(self).map_err(|error| error.to_string())?;
-        Ok(Finding::Here(Box::new(found)))
+    fn carry_out(&self) -> Result<Finding, Failure> {
+        Ok(Finding::Here(Box::new(Piece::carry_out(self)?)))
     }
 
     fn message(&self) -> Vec<u8> {
@@ -89,7 +92,7 @@ pub struct Hand {
     /// The piece's name.
     pub name: &'static str,
     /// Reads the piece, carries it out, and writes what was found.
-    pub carry_out: fn(&[u8]) -> Result<Vec<u8>, String>,
+    pub carry_out: fn(&[u8]) -> Result<Vec<u8>, Failure>,
 }
 
 impl Hand {
@@ -98,8 +101,8 @@ impl Hand {
         Self {
             name: P::NAME,
             carry_out: |message| {
-                let piece = P::deserialize_bin(message).map_err(|error| error.to_string())?;
-                Ok(Piece::carry_out(&piece).map_err(|error| error.to_string())?.serialize_bin())
+                let piece = P::deserialize_bin(message).map_err(|_| broken())?;
+                Ok(Piece::carry_out(&piece)?.serialize_bin())
             },
         }
     }

@@ -1,6 +1,6 @@
 //! A question that is one piece of work.
 
-use super::piece::Piece;
+use super::piece::{Failure, Piece};
 use super::study::{Asked, Order, Study};
 
 /// One piece of work and what it found.
@@ -8,7 +8,7 @@ use super::study::{Asked, Order, Study};
 pub struct Single<P: Piece> {
     piece: P,
     handed: bool,
-    found: Option<Result<P::Found, String>>,
+    found: Option<Result<P::Found, Failure>>,
 }
 
 impl<P: Piece> Single<P> {
@@ -18,8 +18,8 @@ impl<P: Piece> Single<P> {
     }
 
     /// The finding, or why there is none, once it is known.
-    pub fn found(&self) -> Option<Result<&P::Found, &str>> {
-        self.found.as_ref().map(|found| found.as_ref().map_err(String::as_str))
+    pub fn found(&self) -> Option<Result<&P::Found, &Failure>> {
+        self.found.as_ref().map(Result::as_ref)
     }
 }
 

@@ -6,10 +6,10 @@ use std::sync::{Arc, Mutex};
 
 use super::budget::Budget;
 use super::parallel;
-use super::piece::{Finding, Piece, Work};
+use super::piece::{Failure, Finding, Piece, Work};
 
 /// What a study does with what was found for a piece.
-pub(super) type Take<S> = Box<dyn FnOnce(&mut S, Result<Finding, String>) + Send>;
+pub(super) type Take<S> = Box<dyn FnOnce(&mut S, Result<Finding, Failure>) + Send>;
 
 /// A piece of work handed out, with what its study does when it comes back.
 pub struct Order<S: ?Sized> {
@@ -21,7 +21,7 @@ impl<S: 'static> Order<S> {
     /// Hands out `piece`; `take` gets what it finds.
     pub fn new<P: Piece>(
         piece: P,
-        take: impl FnOnce(&mut S, Result<P::Found, String>) + Send + 'static,
+        take: impl FnOnce(&mut S, Result<P::Found, Failure>) + Send + 'static,
     ) -> Self {
         let take: Take<S> = Box::new(move |study, found| take(study, found.and_then(Finding::open)));
         Self { work: Arc::new(piece), take }
@@ -47,12 +47,12 @@ impl<S: 'static> Order<S> {
     ///
     /// # Errors
     /// As [`Piece::carry_out`].
-    pub fn carry_out(&self) -> Result<Finding, String> {
+    pub fn carry_out(&self) -> Result<Finding, Failure> {
         self.work.carry_out()
     }
 
     /// Gives the study what was found for the piece.
-    pub fn found(self, study: &mut S, finding: Result<Finding, String>) {
+    pub fn found(self, study: &mut S, finding: Result<Finding, Failure>) {
         (self.take)(study, finding);
     }
 }
@@ -110,7 +110,7 @@ trait Open: Send {
     /// The next pieces, at most `most`.
     fn hand_out(&mut self, most: usize) -> Vec<(usize, Arc<dyn Work>)>;
     /// Takes what was found for a piece whose turn it is.
-    fn take(&mut self, place: usize, finding: Result<Finding, String>);
+    fn take(&mut self, place: usize, finding: Result<Finding, Failure>);
     /// Done part, 0 to 1.
     fn progress(&self) -> f64;
     fn finished(&self) -> bool;
@@ -132,7 +132,7 @@ impl<S: Study + Send> Open for Desk<'_, S> {
         pieces
     }
 
-    fn take(&mut self, place: usize, finding: Result<Finding, String>) {
+    fn take(&mut self, place: usize, finding: Result<Finding, Failure>) {
         self.taken = self.taken.max(place + 1);
         if let Some(take) = self.due.remove(&place) {
             take(self.study, finding);

@@ -1,6 +1,6 @@
 //! Pieces of work that do not depend on one another: the rows of a table.
 
-use super::piece::Piece;
+use super::piece::{Failure, Piece};
 use super::study::{Asked, Order, Study};
 
 /// Pieces and what they found, in their order.
@@ -8,7 +8,7 @@ use super::study::{Asked, Order, Study};
 pub struct Table<P: Piece> {
     pieces: Vec<P>,
     handed: usize,
-    found: Vec<Option<Result<P::Found, String>>>,
+    found: Vec<Option<Result<P::Found, Failure>>>,
 }
 
 impl<P: Piece> Table<P> {
@@ -18,8 +18,8 @@ impl<P: Piece> Table<P> {
     }
 
     /// What each found, or why it did not; `None` until it is known.
-    pub fn found(&self) -> impl Iterator<Item = Option<Result<&P::Found, &str>>> {
-        self.found.iter().map(|found| Some(found.as_ref()?.as_ref().map_err(String::as_str)))
+    pub fn found(&self) -> impl Iterator<Item = Option<Result<&P::Found, &Failure>>> {
+        self.found.iter().map(|found| found.as_ref().map(Result::as_ref))
     }
 }
 

@@ -1,8 +1,8 @@
 //! Whatever is asked within (and outside) the allowed ranges ends in finite numbers or in one clear line.
 
 use harvester_lab::dynamics::Outcome;
+use harvester_lab::dynamics::RunError;
 use harvester_lab::model::{ForceLaw, MAX_MODES, Parameter, ParameterSet, state_dimension};
-use harvester_lab::questions::run::RunError;
 use harvester_lab::questions::{Run, solve};
 use harvester_lab::scenario::{ModelChoice, Scenario};
 use serde_json::{Value, json};

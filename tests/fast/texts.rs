@@ -14,7 +14,7 @@ use syn::Lit;
 type Catalogue = BTreeMap<String, String>;
 
 /// What asks for a text of the catalogue.
-const CALLS: [&str; 3] = ["tr", "fill", "marked"];
+const CALLS: [&str; 4] = ["tr", "fill", "marked", "said"];
 
 fn project(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
@@ -68,7 +68,9 @@ fn texts(code: TokenStream) -> Vec<String> {
 /// The texts in the sources, each with a file that says it.
 fn said() -> BTreeMap<String, String> {
     let mut files = Vec::new();
-    sources(&project("src/app"), &mut files);
+    for folder in ["src", "solver/src"] {
+        sources(&project(folder), &mut files);
+    }
     let mut said = BTreeMap::new();
     for file in files {
         let code = read(&file).parse().unwrap_or_else(|error| panic!("{}: {error}", file.display()));
@@ -82,6 +84,25 @@ fn said() -> BTreeMap<String, String> {
     }
     assert!(said.len() > 700, "only {} texts were found", said.len());
     said
+}
+
+/// An error of the solver or of a design question would reach the page in English, if its words stood in an attribute. The
+/// spectrum is asked for by the solver itself, always with what it takes.
+#[test]
+fn what_the_solver_says_can_be_translated() {
+    let mut files = Vec::new();
+    for folder in ["solver/src", "src/questions/design"] {
+        sources(&project(folder), &mut files);
+    }
+    let mut errors = 0;
+    for file in files.iter().filter(|file| !file.ends_with("attractors/spectrum.rs")) {
+        let code = read(file);
+        for (_, after) in code.match_indices("#[error(").map(|(at, call)| code[at..].split_at(call.len())) {
+            assert!(after.starts_with("\"{}\", self.say())]"), "{}: {after:.60}", file.display());
+            errors += 1;
+        }
+    }
+    assert!(errors > 8, "only {errors} kinds of errors were found");
 }
 
 /// The names in braces. A lone brace is none.

@@ -25,7 +25,7 @@ fn strong(omega: f64) -> Fallible<ReducedSystem> {
 fn sources(verdict: &Verdict) -> Vec<EvidenceSource> {
     assert!(verdict.rests_on.iter().all(|piece| piece.agrees != Some(false)), "{:?}", verdict.rests_on);
     assert!(verdict.disagreeing.is_empty() && verdict.motion == verdict.suspected);
-    verdict.rests_on.iter().filter(|piece| piece.agrees == Some(true)).map(|piece| piece.source).collect()
+    verdict.rests_on.iter().filter(|piece| piece.agrees == Some(true)).map(Evidence::source).collect()
 }
 
 /// Root mean square of the voltage (V) over 200 excitation periods, after 8000 of them, from rest by RK4.
@@ -155,7 +155,7 @@ fn a_slow_transient_ends_in_the_linear_response_and_hangs_on_no_rounding() -> Te
         "{:?}, {linear}",
         verdict.v_rms
     );
-    let beside = |piece: &Evidence| piece.source == EvidenceSource::Beside;
+    let beside = |piece: &Evidence| piece.source() == EvidenceSource::Beside;
     assert!(!verdict.rests_on.iter().any(beside), "{:?}", verdict.rests_on);
     let slow = |warning: &Warning| matches!(warning, Warning::TransientChaos { .. });
     assert!(!verdict.warnings.iter().any(slow), "{:?}", verdict.warnings);

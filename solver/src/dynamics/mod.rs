@@ -22,6 +22,7 @@ pub use bifurcations::{
     trace_tongue,
 };
 pub use integration::{
-    Collocation, ESCAPE_DISPLACEMENT, IntegrationError, NODES, Ongoing, Outcome, Reach, Settings, Trajectory,
+    Collocation, ESCAPE_DISPLACEMENT, IntegrationError, NODES, Ongoing, Outcome, Reach, RunError, Settings,
+    Trajectory,
 };
 pub use orbits::{Balance, Instability, Orbit, OrbitError, OrbitSolver, PeriodMap};

@@ -3,14 +3,13 @@
 use thiserror::Error;
 
 use crate::number::six_digits;
+use crate::sentence::{Say, Sentence, not_available, said};
 
 /// A reason why a set of inputs describes no harvester that can be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[error("{}", self.say())]
 pub enum ModelError {
     /// A number lies outside the range in which the model is meant to be used.
-    #[error(
-        "{field} = {} is out of range: allowed are {} to {}{unit}", beyond(*value, *minimum, *maximum), six_digits(*minimum), six_digits(*maximum)
-    )]
     OutOfRange {
         /// Name of the input as the user sees it.
         field: String,
@@ -24,7 +23,6 @@ pub enum ModelError {
         unit: &'static str,
     },
     /// A number is NaN or infinite.
-    #[error("{field} is not a finite number: allowed are {} to {}{unit}", six_digits(*minimum), six_digits(*maximum))]
     NotFinite {
         /// Name of the input as the user sees it.
         field: String,
@@ -36,7 +34,6 @@ pub enum ModelError {
         unit: &'static str,
     },
     /// The number of modes, or the degree of the Taylor polynomial, is not one the model has.
-    #[error("{field} = {value} is not available: allowed are {minimum} to {maximum}")]
     Count {
         /// Name of the input.
         field: &'static str,
@@ -47,16 +44,19 @@ pub enum ModelError {
         /// Largest allowed count.
         maximum: usize,
     },
+    /// The start has too few numbers for the modes, or too many.
+    StateLength {
+        /// How many it has.
+        given: usize,
+        /// How many are needed.
+        needed: usize,
+    },
     /// Both sides of a chart are the same coordinate.
-    #[error("both sides of the chart are {field}: they must differ")]
     SameSides {
         /// Name of the coordinate.
         field: String,
     },
     /// Attracting magnets pull the tip in: no equilibrium exists.
-    #[error(
-        "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {} and h = {} the gap d = {d:.4} must be larger than {smallest:.4}", six_digits(*c0), six_digits(*h)
-    )]
     PullIn {
         /// Magnet strength c_0 (dimensionless, negative: attracting).
         c0: f64,
@@ -68,23 +68,61 @@ pub enum ModelError {
         smallest: f64,
     },
     /// The tip spring is so negative that the straight beam is unstable.
-    #[error(
-        "the magnet softens the beam past buckling: c1 = {} must be greater than -3, the stiffness of the beam's tip", six_digits(*c1)
-    )]
     Buckled {
         /// Linear magnet stiffness c_1 (dimensionless).
         c1: f64,
     },
     /// The sag under gravity closes the gap of a device.
-    #[error(
-        "under gravity the tip sags {} m, which closes the magnets' distance of {} m", six_digits(*sag), six_digits(*distance)
-    )]
     GapClosed {
         /// Sag of the tip (m).
         sag: f64,
         /// Distance of the magnets before the beam sags (m).
         distance: f64,
     },
+}
+
+impl Say for ModelError {
+    fn say(&self) -> Sentence {
+        match self {
+            Self::OutOfRange { field, value, minimum, maximum, unit } => said(
+                "{field} = {value} is out of range: allowed are {from} to {to}",
+                &[
+                    ("field", field),
+                    ("value", &beyond(*value, *minimum, *maximum)),
+                    ("from", &six_digits(*minimum)),
+                    ("to", &(six_digits(*maximum) + unit)),
+                ],
+            ),
+            Self::NotFinite { field, minimum, maximum, unit } => said(
+                "{field} is not a finite number: allowed are {from} to {to}",
+                &[("field", field), ("from", &six_digits(*minimum)), ("to", &(six_digits(*maximum) + unit))],
+            ),
+            Self::Count { field, value, minimum, maximum } => not_available(field, value, (minimum, maximum)),
+            Self::StateLength { given, needed } => {
+                not_available(&said("numbers in initial", &[]), given, (needed, needed))
+            }
+            Self::SameSides { field } => {
+                said("both sides of the chart are {field}: they must differ", &[("field", field)])
+            }
+            Self::PullIn { c0, d, h, smallest } => said(
+                "the magnets attract so strongly that the tip has no equilibrium (pull-in): with c0 = {c0} and h = {h} the gap d = {d} must be larger than {smallest}",
+                &[
+                    ("c0", &six_digits(*c0)),
+                    ("h", &six_digits(*h)),
+                    ("d", &format!("{d:.4}")),
+                    ("smallest", &format!("{smallest:.4}")),
+                ],
+            ),
+            Self::Buckled { c1 } => said(
+                "the magnet softens the beam past buckling: c1 = {c1} must be greater than -3, the stiffness of the beam's tip",
+                &[("c1", &six_digits(*c1))],
+            ),
+            Self::GapClosed { sag, distance } => said(
+                "under gravity the tip sags {sag} m, which closes the magnets' distance of {distance} m",
+                &[("sag", &six_digits(*sag)), ("distance", &six_digits(*distance))],
+            ),
+        }
+    }
 }
 
 impl ModelError {

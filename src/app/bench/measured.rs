@@ -6,7 +6,7 @@ use egui_plot::PlotPoint;
 
 use crate::app::clock::milliseconds;
 use crate::app::session::Shown;
-use crate::app::text::reworded;
+use crate::app::text::say;
 use crate::questions::design::measured::{Columns, Import, Layout, MeasuredError, detect};
 use crate::questions::design::thin::{Thinner, extent};
 
@@ -75,7 +75,7 @@ impl Measured {
     pub(in crate::app) fn open(&mut self, name: &str, text: Vec<u8>) {
         *self = Self::default();
         match detect(&text) {
-            Err(error) => self.error = Some(format!("{name}: {}", reworded(&error.to_string()))),
+            Err(error) => self.error = Some(format!("{name}: {}", say(&error))),
             Ok(layout) => {
                 let domain = domain_of(&layout);
                 let x_unit = unit_of(&layout, 0, &[("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("khz", 1e3)]);
@@ -143,7 +143,7 @@ impl Measured {
     fn fail(&mut self, error: &MeasuredError) {
         if let Some(file) = &mut self.file {
             file.import = None;
-            self.error = Some(format!("{}: {}", file.name, reworded(&error.to_string())));
+            self.error = Some(format!("{}: {}", file.name, say(error)));
         }
     }
 }

@@ -17,12 +17,13 @@ use crate::model::{Device, Dimension, ElectricalScaling, Limits, ModelError};
 use crate::questions::design::Operating;
 use crate::questions::harvest::HarvestStudy;
 use crate::scenario::{ModelChoice, Scenario};
+use crate::sentence::Sentence;
 
 /// What the bench keeps beside the view.
 #[derive(Default)]
 pub(super) struct Bench {
     /// Why the last change of the device was not made.
-    pub refusal: Option<String>,
+    pub refusal: Option<Sentence>,
     /// Measured data.
     pub measured: Measured,
     /// Modes and force law before the present ones.

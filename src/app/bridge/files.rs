@@ -11,6 +11,7 @@ use crate::app::errand::Errand;
 use crate::app::sharing;
 use crate::app::speaking::Words;
 use crate::app::text::Language;
+use crate::sentence::{Sentence, said};
 
 /// The element that opens the dialog; tests find it by this.
 const INPUT: &str = "open-file";
@@ -132,19 +133,19 @@ async fn read(file: web_sys::File) {
 }
 
 /// What a file holds. Its beginning is looked at first: what cannot be opened is not read.
-async fn contents(file: &web_sys::File) -> Result<Vec<u8>, String> {
+async fn contents(file: &web_sys::File) -> Result<Vec<u8>, Sentence> {
     let beginning = file.slice_with_f64_and_f64(0.0, sharing::FIRST as f64).map_err(|_| unreadable())?;
     sharing::look(&file.name(), &bytes(&beginning).await?, file.size() as usize)?;
     bytes(file).await
 }
 
-async fn bytes(blob: &Blob) -> Result<Vec<u8>, String> {
+async fn bytes(blob: &Blob) -> Result<Vec<u8>, Sentence> {
     let buffer = wasm_bindgen_futures::JsFuture::from(blob.array_buffer()).await.map_err(|_| unreadable())?;
     Ok(js_sys::Uint8Array::new(&buffer).to_vec())
 }
 
-fn unreadable() -> String {
-    "the browser cannot read it".to_owned()
+fn unreadable() -> Sentence {
+    said("the browser cannot read it", &[])
 }
 
 /// Opens what was dropped on the page in this frame.

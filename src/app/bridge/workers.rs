@@ -13,7 +13,7 @@ use web_sys::{MessageEvent, Worker};
 
 use crate::app::crew::{Crew, Workers};
 use crate::questions::list;
-use crate::scheduler::{Finding, Work};
+use crate::scheduler::{Failure, Finding, Work};
 
 /// Fewest and most workers.
 const COUNTS: (usize, usize) = (2, 8);
@@ -30,9 +30,13 @@ struct Order {
 #[derive(SerBin, DeBin)]
 struct Report {
     number: u64,
-    finding: Option<Vec<u8>>,
-    /// Why there is no finding.
-    error: String,
+    outcome: Outcome,
+}
+
+#[derive(SerBin, DeBin)]
+enum Outcome {
+    Found(Vec<u8>),
+    Failed(Failure),
 }
 
 /// Inside a worker: carries out an order and reports, in the binary form of messages.
@@ -40,13 +44,10 @@ struct Report {
 pub fn carry_out(order: &[u8]) -> Vec<u8> {
     let (number, finding) = match Order::deserialize_bin(order) {
         Ok(Order { number, name, piece }) => (number, list::carry_out(&name, &piece)),
-        Err(error) => (0, Err(error.to_string())),
+        Err(error) => (0, Err(Failure::Verbatim(error.to_string()))),
     };
-    let (finding, error) = match finding {
-        Ok(finding) => (Some(finding), String::new()),
-        Err(error) => (None, error),
-    };
-    Report { number, finding, error }.serialize_bin()
+    let outcome = finding.map_or_else(Outcome::Failed, Outcome::Found);
+    Report { number, outcome }.serialize_bin()
 }
 
 /// What the crew's messages lead to.
@@ -96,7 +97,10 @@ impl WebWorkers {
             let message =
                 event.data().dyn_into::<Uint8Array>().map(|bytes| bytes.to_vec()).unwrap_or_default();
             if let Ok(report) = Report::deserialize_bin(&message) {
-                let finding = report.finding.map(Finding::Message).ok_or(report.error);
+                let finding = match report.outcome {
+                    Outcome::Found(message) => Ok(Finding::Message(message)),
+                    Outcome::Failed(why) => Err(why),
+                };
                 crew.borrow_mut().returned(number, report.number, finding);
             }
             taken(&crew);

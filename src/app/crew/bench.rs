@@ -11,7 +11,8 @@ use crate::questions::find::FindStudy;
 use crate::questions::harvest::{Deliver, HarvestStudy};
 use crate::questions::load::LoadStudy;
 use crate::scenario::Scenario;
-use crate::scheduler::{Asked as _, Single, Study as _};
+use crate::scheduler::{Asked as _, Failure, Single, Study as _};
+use crate::sentence::Sentence;
 
 /// The same search every time.
 const SEED: u64 = 1;
@@ -41,12 +42,12 @@ impl Studies {
     /// Begins the search for a design, or ends it: one under way keeps its best so far, a finished one is put away.
     ///
     /// # Errors
-    /// One sentence about what of the question is out of range.
+    /// What of the question is out of range.
     pub(in crate::app) fn search(
         &mut self,
         question: Option<FindQuestion>,
         view: &View,
-    ) -> Result<(), String> {
+    ) -> Result<(), Sentence> {
         let Some(lane) = self.lanes.lane_mut::<FindStudy>() else { return Ok(()) };
         let Some(question) = question else {
             let under_way = lane.study_mut().filter(|study| !study.finished());
@@ -58,7 +59,7 @@ impl Studies {
         };
         self.ended = false;
         let study = FindStudy::new(question, view.design.search.generations, SEED);
-        lane.ask(study.map_err(|error| error.to_string())?);
+        lane.ask(study?);
         Ok(())
     }
 
@@ -68,7 +69,10 @@ impl Studies {
     }
 
     /// What the device delivers, or why nothing is known, and whether it is the device in view.
-    pub(in crate::app) fn operating(&self, scenario: &Scenario) -> Option<(Result<&Operating, &str>, bool)> {
+    pub(in crate::app) fn operating(
+        &self,
+        scenario: &Scenario,
+    ) -> Option<(Result<&Operating, &Failure>, bool)> {
         let study: &Single<Deliver> = self.lanes.finished()?;
         Some((study.found()?, study.asked().scenario == *scenario))
     }

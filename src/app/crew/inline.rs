@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Workers;
 use crate::app::clock::milliseconds;
-use crate::scheduler::{Finding, Work};
+use crate::scheduler::{Failure, Finding, Work};
 
 /// Time a frame may spend on pieces.
 const BUDGET_MS: f64 = 6.0;
@@ -34,7 +34,7 @@ impl Workers for Inline {
         true
     }
 
-    fn attend(&mut self) -> Option<(usize, u64, Result<Finding, String>)> {
+    fn attend(&mut self) -> Option<(usize, u64, Result<Finding, Failure>)> {
         let since = *self.since.get_or_insert_with(milliseconds);
         if milliseconds() - since > BUDGET_MS {
             self.since = None;

@@ -15,7 +15,7 @@ use std::sync::Arc;
 use super::clock::milliseconds;
 use crate::questions::answers::Answers;
 use crate::scheduler::foreman::Foreman;
-use crate::scheduler::{Finding, Work};
+use crate::scheduler::{Failure, Finding, Work};
 
 /// A worker may go on with a piece that nobody waits for any more for this long; then it is replaced.
 const OBSOLETE_MS: f64 = 2000.0;
@@ -35,7 +35,7 @@ pub trait Workers {
     fn replace(&mut self, worker: usize);
 
     /// Does what is due on this thread, if the workers share it.
-    fn attend(&mut self) -> Option<(usize, u64, Result<Finding, String>)> {
+    fn attend(&mut self) -> Option<(usize, u64, Result<Finding, Failure>)> {
         None
     }
 
@@ -81,7 +81,7 @@ impl Crew {
     }
 
     /// Takes in what a worker found, and gives it something new.
-    pub fn returned(&mut self, worker: usize, number: u64, finding: Result<Finding, String>) {
+    pub fn returned(&mut self, worker: usize, number: u64, finding: Result<Finding, Failure>) {
         self.foreman.returned(worker, number, finding, &mut self.studies.lanes.traffic());
         self.hand_out();
     }

@@ -6,7 +6,7 @@ use crate::questions::list;
 use crate::questions::response::{Response, ResponseCurve};
 use crate::questions::tongues::TongueStudy;
 use crate::scenario::Scenario;
-use crate::scheduler::{Asked as _, Lanes, Piece, Single, Table};
+use crate::scheduler::{Asked as _, Failure, Lanes, Piece, Single, Table};
 
 /// The lanes, and what the Design tab knows besides.
 pub(in crate::app) struct Studies {
@@ -23,7 +23,7 @@ pub(in crate::app) struct Followed<'a> {
     /// The question that they answer.
     pub question: &'a Response,
     /// The curves, or why there are none.
-    pub curves: Result<&'a [ResponseCurve], &'a str>,
+    pub curves: Result<&'a [ResponseCurve], &'a Failure>,
     /// Whether it is the newest question.
     pub newest: bool,
 }

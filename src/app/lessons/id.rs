@@ -72,8 +72,8 @@ impl<'de> Deserialize<'de> for LessonId {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let name = String::deserialize(deserializer)?;
         Self::named(&name).ok_or_else(|| {
-            let names: Vec<&str> = Self::all().map(Self::name).collect();
-            de::Error::custom(format!("`{name}` is not available: allowed are {}", names.join(", ")))
+            static NAMES: OnceLock<Vec<&str>> = OnceLock::new();
+            de::Error::unknown_variant(&name, NAMES.get_or_init(|| Self::all().map(Self::name).collect()))
         })
     }
 }

@@ -1,10 +1,11 @@
 //! Single entries of a view, by the names and in the spelling that links have.
 
-use super::Problem;
 use super::field::fields;
+use super::{Problem, unknown};
 use crate::app::bench;
 use crate::app::view::View;
 use crate::model::{Device, Dimension, ModelError};
+use crate::sentence::Sentence;
 
 /// The entries of these names as text; names that links do not have are left out.
 pub fn entries(view: &View, names: &[&'static str]) -> Vec<(&'static str, String)> {
@@ -21,19 +22,19 @@ pub fn entries(view: &View, names: &[&'static str]) -> Vec<(&'static str, String
 /// # Errors
 /// What is wrong with it, and what is allowed.
 pub fn edit(view: &View, name: &str, text: &str) -> Result<View, Problem> {
-    let problem = |reason: String| Problem::new(name, text, reason);
+    let problem = |reason: Sentence| Problem::new(name, text, reason);
     let fields = fields();
     let field = fields.iter().find(|field| field.name == name);
-    let field = field.ok_or_else(|| problem("not a name this page knows".to_owned()))?;
+    let field = field.ok_or_else(|| problem(unknown()))?;
     let (new, mut value) = (field.read(text).map_err(problem)?, view.to_value());
     field.try_out(value.clone(), &new).map_err(problem)?;
     field.set(&mut value, &new);
-    let mut edited = View::from_value(value).map_err(problem)?;
+    let mut edited = View::from_value(value).map_err(|error| problem(error.into()))?;
     if let Some(device) = edited_device(view, name, &edited) {
-        let device = device.map_err(|error| problem(error.to_string()))?;
+        let device = device.map_err(|error| problem(error.into()))?;
         let scaling = view.scenario.scaling;
         edited.scenario = view.scenario.clone();
-        edited.scenario.set_device(device, scaling).map_err(|error| problem(error.to_string()))?;
+        edited.scenario.set_device(device, scaling).map_err(|error| problem(error.into()))?;
     }
     let modes = edited.scenario.model.modes;
     if modes != view.scenario.model.modes {

@@ -11,8 +11,10 @@ use crate::dynamics::attractors::sweep::Dwell;
 use crate::export::number::shortest;
 use crate::model::{Dimension, ForceLaw, MAX_MODES, Parameter};
 use crate::questions::find::GENERATIONS;
+use crate::questions::input::one_of;
 use crate::questions::sweep::COUNTS;
 use crate::scenario::END_TIME;
+use crate::sentence::{Say as _, Sentence, said};
 
 /// Where the device's dimensions stand.
 const DEVICE: &str = "/scenario/device";
@@ -28,6 +30,8 @@ enum Kind {
     Number((f64, f64), &'static str),
     /// The load's resistance: a positive number, or `open`.
     Resistance,
+    /// Excitation periods a second.
+    Speed,
     /// A whole number in this range.
     Whole(usize, usize),
     /// `true` or `false`.
@@ -115,7 +119,7 @@ pub(super) fn fields() -> Vec<Field> {
     }
     add("/design/search/generations", Kind::Whole(GENERATIONS.0, GENERATIONS.1));
     add("/live/trace", Kind::Word);
-    add("/live/speed", Kind::Number(SPEEDS, "periods a second"));
+    add("/live/speed", Kind::Speed);
     add("/live/periods", Kind::Whole(WINDOWS.0, WINDOWS.1));
     add("/live/kick", Kind::Number(KICKS, ""));
     add("/lesson", Kind::Word);
@@ -165,11 +169,14 @@ impl Field {
     }
 
     /// Whether a view, given as JSON, takes this value; otherwise what is allowed.
-    pub(super) fn try_out(&self, mut view: Value, value: &Value) -> Result<(), String> {
+    pub(super) fn try_out(&self, mut view: Value, value: &Value) -> Result<(), Sentence> {
         self.set(&mut view, value);
-        View::from_value(view).map(|_| ()).map_err(|message| match message.split_once(": allowed are ") {
-            Some((_, allowed)) => format!("allowed are {}", allowed.replace('`', "")),
-            None => message,
+        View::from_value(view).map(|_| ()).map_err(|error| {
+            if error.allowed.is_empty() {
+                return error.say();
+            }
+            let words = one_of(error.allowed.iter().map(|word| (*word).to_owned()));
+            said("allowed are {words}", &[("words", &words)])
         })
     }
 
@@ -195,30 +202,44 @@ impl Field {
     }
 
     /// Text as a value; otherwise what is wrong with it.
-    pub(super) fn read(&self, text: &str) -> Result<Value, String> {
+    pub(super) fn read(&self, text: &str) -> Result<Value, Sentence> {
         match self.kind {
-            Kind::Number(range, unit) => number::read(text, range, &spaced(unit)).map(Value::from),
+            Kind::Number(range, unit) => number::read(text, range, &number::range(unit)).map(Value::from),
             Kind::Resistance if text == "open" => Ok(Value::Null),
             Kind::Resistance => {
-                let read = number::read(text, Dimension::Resistance.range(), " ohm");
-                read.map(Value::from).map_err(|reason| reason + ", or open")
+                let allowed = |from: &str, to: &str| {
+                    said("allowed are {from} to {to} ohm, or open", &[("from", &from), ("to", &to)])
+                };
+                number::read(text, Dimension::Resistance.range(), &allowed).map(Value::from)
+            }
+            Kind::Speed => {
+                let allowed = |from: &str, to: &str| {
+                    said("allowed are {from} to {to} periods a second", &[("from", &from), ("to", &to)])
+                };
+                number::read(text, SPEEDS, &allowed).map(Value::from)
             }
             Kind::Whole(minimum, maximum) => match text.trim().parse::<usize>() {
                 Ok(value) if (minimum..=maximum).contains(&value) => Ok(Value::from(value)),
-                _ => Err(format!("allowed are whole numbers from {minimum} to {maximum}")),
+                _ => Err(said(
+                    "allowed are whole numbers from {from} to {to}",
+                    &[("from", &minimum), ("to", &maximum)],
+                )),
             },
             Kind::Flag => match text {
                 "true" => Ok(Value::Bool(true)),
                 "false" => Ok(Value::Bool(false)),
-                _ => Err("allowed are true and false".to_owned()),
+                _ => Err(said("allowed are true and false", &[])),
             },
             Kind::Word => Ok(Value::from(text)),
             Kind::Words => Ok(words(text).map(Value::from).collect()),
             Kind::Numbers(count, range) => {
-                let numbers: Result<Vec<f64>, String> =
-                    words(text).map(|word| number::read(word, range, "")).collect();
+                let allowed = number::range("");
+                let numbers: Result<Vec<f64>, Sentence> =
+                    words(text).map(|word| number::read(word, range, &allowed)).collect();
                 match (numbers?, count) {
-                    (numbers, Some(count)) if numbers.len() != count => Err(format!("needs {count} numbers")),
+                    (numbers, Some(count)) if numbers.len() != count => {
+                        Err(said("needs {count} numbers", &[("count", &count)]))
+                    }
                     (numbers, _) => Ok(Value::from(numbers)),
                 }
             }
@@ -228,7 +249,7 @@ impl Field {
                 None => Value::from(text),
             }),
             Kind::Device if text == "paper" => Ok(Value::Object(Map::new())),
-            Kind::Device => Err("allowed is paper".to_owned()),
+            Kind::Device => Err(said("allowed is {word}", &[("word", &"paper")])),
         }
     }
 }
@@ -244,11 +265,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split([' ', ',']).filter(|word| !word.is_empty())
 }
 
-fn spaced(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
-}
-
-fn force(text: &str) -> Result<Value, String> {
+fn force(text: &str) -> Result<Value, Sentence> {
     if matches!(text, "quadratic" | "exact") {
         return Ok(Value::from(text));
     }
@@ -257,6 +274,9 @@ fn force(text: &str) -> Result<Value, String> {
         Some(Ok(ForceLaw::Taylor(degree))) => {
             Ok(Value::Object(Map::from_iter([("taylor".to_owned(), Value::from(degree))])))
         }
-        _ => Err(format!("allowed are quadratic, taylor2 to taylor{} and exact", ForceLaw::MAX_DEGREE)),
+        _ => Err(said(
+            "allowed are quadratic, taylor2 to taylor{degree} and exact",
+            &[("degree", &ForceLaw::MAX_DEGREE)],
+        )),
     }
 }

@@ -22,8 +22,9 @@ use std::fmt;
 use serde_json::Value;
 
 use super::view::View;
-use crate::app::text::{fill, reworded};
+use crate::app::text::{fill, say};
 use crate::scenario::Scenario;
+use crate::sentence::{Sentence, said};
 pub use entry::{edit, entries};
 use field::{Field, fields};
 
@@ -43,22 +44,22 @@ pub struct Problem {
     /// Its value as given, shortened.
     pub value: String,
     /// What is wrong, with what is allowed.
-    pub reason: String,
+    pub reason: Sentence,
 }
 
 impl Problem {
-    fn new(name: &str, value: &str, reason: impl Into<String>) -> Self {
+    fn new(name: &str, value: &str, reason: Sentence) -> Self {
         let short = |text: &str| {
             let start: String = text.chars().take(SHOWN_CHARACTERS).collect();
             if start.len() < text.len() { start + "…" } else { start }
         };
-        Self { name: short(name), value: short(value), reason: reason.into() }
+        Self { name: short(name), value: short(value), reason }
     }
 }
 
 impl fmt::Display for Problem {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{} = {} ({})", self.name, self.value, reworded(&self.reason))
+        write!(formatter, "{} = {} ({})", self.name, self.value, say(&self.reason))
     }
 }
 
@@ -107,11 +108,12 @@ pub fn read(fragment: &str, present: &View) -> (View, Vec<Problem>) {
             if text.parse().is_ok_and(|version: u32| (1..=VERSION).contains(&version)) {
                 continue;
             }
-            problems.push(Problem::new(&name, &text, format!("this page knows version {VERSION}")));
+            let reason = said("this page knows version {version}", &[("version", &VERSION)]);
+            problems.push(Problem::new(&name, &text, reason));
             continue;
         }
         let Some((place, field)) = fields.iter().enumerate().find(|(_, field)| field.name == name) else {
-            problems.push(Problem::new(&name, &text, "not a name this page knows"));
+            problems.push(Problem::new(&name, &text, unknown()));
             continue;
         };
         recognised = true;
@@ -128,6 +130,11 @@ pub fn read(fragment: &str, present: &View) -> (View, Vec<Problem>) {
     }
     let view = agree(given, usual, &plain, &mut problems);
     (view, problems)
+}
+
+/// What is wrong with an entry of another name.
+fn unknown() -> Sentence {
+    said("not a name this page knows", &[])
 }
 
 /// An entry that is usable by itself.

@@ -205,3 +205,34 @@ fn a_complaint_stays_short() {
     assert!(text.len() < 1000 && text.ends_with("more."), "{text}");
     assert_eq!(complaint(&[]), None);
 }
+
+/// What of a sentence is the same in every language.
+fn verbatim(sentence: &Sentence) -> Vec<&str> {
+    match sentence {
+        Sentence::Verbatim(text) => vec![text],
+        Sentence::Words { values, .. } => values.iter().flat_map(|(_, value)| verbatim(value)).collect(),
+    }
+}
+
+/// One entry of every kind, and whatever else can be wrong with a link.
+#[test]
+fn what_is_wrong_with_a_link_can_be_translated() {
+    let names = "beta modes force initial t_end resistance beam_length repelling ceramic device scaling tab map layer \
+        sweep.range sweep.count sweep.dwell.kept sweep.output plane figure enlarged design.page design.least \
+        design.limits.voltage design.quantity design.search.aim live.trace live.speed live.periods lesson step lang v";
+    let mut problems = Vec::new();
+    for name in names.split_whitespace() {
+        for text in ["", "x", "1e30", "1 2 3", "-1", "omega+omega", "taylor99"] {
+            problems.extend(read(&format!("tab=sweep&{name}={text}"), &View::default()).1);
+        }
+    }
+    assert!(problems.len() > 150, "{} problems", problems.len());
+    // What is left are numbers and names, not words.
+    let is_word = |word: &str| word.len() > 2 && !["mode", "periods"].contains(&word);
+    let has_words = |text: &str| text.split(|letter: char| !letter.is_ascii_lowercase()).any(is_word);
+    let is_sentence = |left: &str| left.split(", ").any(|part| part.contains(' ') && has_words(part));
+    for problem in &problems {
+        let left = verbatim(&problem.reason);
+        assert!(!left.iter().any(|left| is_sentence(left)), "{problem}: {left:?}");
+    }
+}

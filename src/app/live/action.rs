@@ -1,6 +1,7 @@
 //! What drives the run, and what ends it.
 
 use crate::dynamics::Outcome;
+use crate::sentence::Sentence;
 
 /// What the user wants of the run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,5 +30,5 @@ pub(in crate::app) enum End {
     /// Escape or contact.
     Outcome(Outcome),
     /// It cannot be computed.
-    Failed(String),
+    Failed(Sentence),
 }

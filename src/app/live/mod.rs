@@ -28,6 +28,7 @@ use super::view::{Tab, View};
 use crate::dynamics::{IntegrationError, Outcome, Reach};
 use crate::model::{ModelError, ParameterSet, ReducedSystem};
 use crate::scenario::{ModelChoice, Scenario};
+use crate::sentence::Sentence;
 use run::LiveRun;
 use sound::Sound;
 
@@ -58,7 +59,7 @@ pub(super) struct Live {
     /// The numbers that it follows.
     followed: Option<(ParameterSet, ModelChoice)>,
     /// Why the numbers in view are not those of the run.
-    pub refusal: Option<String>,
+    pub refusal: Option<Sentence>,
     pub ended: Option<End>,
     pub running: bool,
     pub trail: Trail,
@@ -225,12 +226,12 @@ impl Live {
     }
 
     fn refuse(&mut self, error: &ModelError) {
-        self.refusal = Some(error.to_string());
+        self.refusal = Some(error.into());
     }
 
     fn note(&mut self, done: Result<(), IntegrationError>) {
         if let Err(error) = done {
-            self.ended = Some(End::Failed(error.to_string()));
+            self.ended = Some(End::Failed(error.into()));
         }
     }
 
@@ -265,7 +266,7 @@ impl Live {
                     return;
                 }
                 Err(error) => {
-                    self.ended = Some(End::Failed(error.to_string()));
+                    self.ended = Some(End::Failed(error.into()));
                     return;
                 }
             }

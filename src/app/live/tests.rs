@@ -213,7 +213,7 @@ fn a_device_that_is_none_is_refused_and_the_run_goes_on() {
     page.frames(10);
     page.view.scenario.parameters.c0 = -5.0;
     assert!(page.frames(10));
-    assert!(page.live.refusal.as_ref().is_some_and(|reason| reason.contains("attract")));
+    assert!(page.live.refusal.as_ref().is_some_and(|reason| reason.to_string().contains("attract")));
     page.view.scenario.parameters.c0 = 0.5;
     assert!(page.frames(1) && page.live.refusal.is_none());
     // Also at the start.

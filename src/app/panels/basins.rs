@@ -5,7 +5,7 @@ use egui_plot::{PlotBounds, PlotPoint};
 
 use super::Context;
 use super::spec::{Asking, Place, Spec};
-use crate::app::text::{fill, marked, motion_in_words, tr};
+use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme::{self, Tokens};
 use crate::app::view::Tab;
 use crate::app::widgets::number::{round_significant, significant};
@@ -79,7 +79,7 @@ fn name(attractor: &Attractor) -> String {
         Motion::Escape { .. } => tr("escape").to_owned(),
         Motion::Contact { .. } => tr("contact").to_owned(),
         Motion::Undecided { .. } => tr("undecided").to_owned(),
-        motion => format!("{}, {} V", motion_in_words(motion), significant(attractor.cell.v_rms, 3)),
+        motion => format!("{}, {} V", say(&motion), significant(attractor.cell.v_rms, 3)),
     }
 }
 
@@ -137,7 +137,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &BasinStudy, attractors: 
                 .filter(|attractor| matches!(attractor.cell.motion, Motion::Periodic { .. }))
                 .map(|attractor| {
                     let place = PlotPoint::new(attractor.start[i], attractor.start[j]);
-                    (motion_in_words(attractor.cell.motion), place)
+                    (say(&attractor.cell.motion), place)
                 })
                 .collect();
             for (name, place) in &places {

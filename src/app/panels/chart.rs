@@ -10,7 +10,7 @@ use super::stability_map::{self, drag_point};
 use crate::app::command::Command;
 use crate::app::map::{Boundaries, ceiling};
 use crate::app::questions;
-use crate::app::text::{marked, motion_in_words, tr};
+use crate::app::text::{marked, say, tr};
 use crate::app::theme::{self, Tokens};
 use crate::app::view::{Layer, Tab};
 use crate::app::widgets::number::{self, significant};
@@ -212,7 +212,7 @@ fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f6
         Some(match layer {
             Layer::Voltage => number::exact(cell.v_rms),
             Layer::Power => number::exact(factor * cell.power),
-            _ => motion_in_words(cell.motion),
+            _ => say(&cell.motion),
         })
     };
     let name = match layer {

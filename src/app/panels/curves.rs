@@ -6,7 +6,7 @@ use egui_plot::{PlotBounds, PlotPoint};
 use super::spec::{Asking, Place, Spec};
 use super::{Context, facts};
 use crate::app::command::Command;
-use crate::app::text::{fill, marked, reworded, tr};
+use crate::app::text::{fill, marked, say, tr};
 use crate::app::view::Tab;
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::plot_style;
@@ -94,7 +94,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let special: Vec<(String, PlotPoint)> = curves
         .iter()
         .flat_map(|curve| &curve.special)
-        .map(|point| (point.kind.to_string(), PlotPoint::new(point.at[0], point.at[1])))
+        .map(|point| (say(&point.kind), PlotPoint::new(point.at[0], point.at[1])))
         .collect();
     let shown = plot_style::plot(ui, ("curves", context.view.plane.map(|parameter| parameter as u8)), &x, &y)
         .allow_drag(false)
@@ -108,7 +108,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
                 plot_style::series(plot, *kind, name, line);
             }
             for (name, place) in &special {
-                plot_style::special_point(plot, &reworded(name), *place);
+                plot_style::special_point(plot, name, *place);
             }
         });
     let parameters = context.view.scenario.parameters;

@@ -7,7 +7,7 @@ use super::{Context, facts};
 use super::design::search::digits::in_digits;
 use super::spec::{Asking, Place, Spec};
 use crate::app::panels::device::adopt;
-use crate::app::text::{fill, tr};
+use crate::app::text::{fill, say, tr};
 use crate::app::view::design::{Aim, Page};
 use crate::app::widgets::number::{self, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -35,7 +35,7 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(map) = context.studies.lanes.study::<DesignMap>() else { return };
     header(context, ui, map);
     match map.failure() {
-        Some(why) => plot_style::no_data(ui, ui.available_rect_before_wrap(), why),
+        Some(why) => plot_style::no_data(ui, ui.available_rect_before_wrap(), &say(why)),
         None => plot(context, ui, map),
     }
 }

@@ -11,7 +11,7 @@ pub(super) use self::excitation::excitation;
 pub(super) use self::parts::structure;
 use super::{Context, facts};
 use crate::app::command::Command;
-use crate::app::text::{fill, reworded, tr};
+use crate::app::text::{fill, tr};
 use crate::app::view::{Tab, View};
 use crate::app::widgets::chips;
 use crate::app::{bench, theme};
@@ -78,10 +78,7 @@ fn device_of(context: &Context<'_>, ui: &mut Ui) -> Option<Device> {
         Ok(device) => Some(device),
         Err(error) => {
             let colour = theme::tokens(ui).danger;
-            let text = fill(
-                "These numbers belong to no device: {error}.",
-                &[("error", &reworded(&error.to_string()))],
-            );
+            let text = fill("These numbers belong to no device: {error}.", &[("error", &error)]);
             ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
             None
         }

@@ -4,10 +4,10 @@ use egui::{RichText, Ui};
 
 use super::Context;
 use super::spec::{Place, Spec};
-use crate::app::text::{marked, reworded, tr};
+use crate::app::text::{marked, say, tr};
 use crate::app::view::Tab;
 use crate::app::{fonts, theme};
-use crate::dynamics::attractors::evidence::{Evidence, EvidenceSource};
+use crate::dynamics::attractors::evidence::EvidenceSource;
 
 /// The evidence, in words.
 pub(super) const PANEL: Spec =
@@ -34,13 +34,13 @@ fn list(context: &mut Context<'_>, ui: &mut Ui) {
             Some(false) => (tr("contradicts"), tokens.danger),
             None => (tr("open"), tokens.text_weak),
         };
-        row(ui, title(piece.source), sign, colour, &says(piece));
+        row(ui, title(piece.source()), sign, colour, &say(&piece.shows));
     }
     for other in &verdict.coexists {
-        row(ui, tr("Coexisting motion"), "", tokens.warning, &reworded(&other.to_string()));
+        row(ui, tr("Coexisting motion"), "", tokens.warning, &say(other));
     }
     for warning in &verdict.warnings {
-        row(ui, tr("Note"), "", tokens.warning, &reworded(&warning.to_string()));
+        row(ui, tr("Note"), "", tokens.warning, &say(warning));
     }
 }
 
@@ -69,25 +69,4 @@ fn title(source: EvidenceSource) -> &'static str {
         EvidenceSource::Exponent => tr("Lyapunov exponent"),
         EvidenceSource::Spectrum => tr("Spectrum"),
     }
-}
-
-/// What stands before the ends that starts lead to.
-const BESIDE: &str = "rounding: ";
-
-/// What it says, in the reader's language; a spectrum names its lines one by one.
-fn says(piece: &Evidence) -> String {
-    let says = strip(&piece.says);
-    if piece.source == EvidenceSource::Spectrum {
-        return says.split(", ").map(reworded).collect::<Vec<_>>().join(", ");
-    }
-    if let Some((before, ends)) = says.split_once(BESIDE).filter(|_| piece.source == EvidenceSource::Beside) {
-        let ends: Vec<String> = ends.split("; ").map(reworded).collect();
-        return reworded(&format!("{before}{BESIDE}{}", ends.join("; ")));
-    }
-    reworded(says)
-}
-
-/// The text without the name of its source before the colon.
-fn strip(says: &str) -> &str {
-    says.split_once(": ").filter(|(name, _)| !name.contains(' ')).map_or(says, |(_, rest)| rest)
 }

@@ -9,7 +9,7 @@ use super::design::measure::{Measure, values};
 use super::design::safety::{Safety, beyond};
 use super::spec::{Place, Spec};
 use crate::app::panels::say_cut;
-use crate::app::text::{fill, marked, tr};
+use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::view::design::{Page, Watched};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -28,11 +28,13 @@ pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Harvest), |_| tr("Ove
 fn contents(context: &mut Context<'_>, ui: &mut Ui) {
     header(context, ui);
     let failure = match context.studies.lanes.study::<HarvestStudy>() {
-        Some(study) if study.failure().is_none() => return plot(context, ui, study),
-        Some(study) => study.failure().unwrap_or_default(),
-        None => tr("There are no curves for this device: see the message above."),
+        Some(study) => match study.failure() {
+            None => return plot(context, ui, study),
+            Some(failure) => say(failure),
+        },
+        None => tr("There are no curves for this device: see the message above.").to_owned(),
     };
-    plot_style::no_data(ui, ui.available_rect_before_wrap(), failure);
+    plot_style::no_data(ui, ui.available_rect_before_wrap(), &failure);
 }
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {

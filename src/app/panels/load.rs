@@ -9,7 +9,7 @@ use super::design::optimum::Optimum;
 use super::design::safety::{Safety, beyond};
 use super::spec::{Asking, Place, Spec};
 use crate::app::bench::questions;
-use crate::app::text::{fill, marked, reworded, tr};
+use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::view::design::Page;
 use crate::app::widgets::number::{prefix, significant, with_unit};
@@ -40,9 +40,9 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
     match context.studies.lanes.study::<LoadStudy>() {
         Some(study) if study.failure().is_none() => plot(context, ui, study),
         study => {
-            let why =
-                study.and_then(LoadStudy::failure).unwrap_or(marked("There is no curve for this device."));
-            plot_style::no_data(ui, ui.available_rect_before_wrap(), &reworded(why));
+            let none = || tr("There is no curve for this device.").to_owned();
+            let why = study.and_then(LoadStudy::failure).map_or_else(none, |failure| say(failure));
+            plot_style::no_data(ui, ui.available_rect_before_wrap(), &why);
         }
     }
 }

@@ -6,7 +6,7 @@ use egui_plot::{PlotPoint, VLine};
 use super::spec::{Asking, Place, Spec};
 use super::{Context, facts};
 use crate::app::questions;
-use crate::app::text::{fill, marked, tr};
+use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::view::Tab;
 use crate::app::widgets::plot_style::{self, Axis};
@@ -39,9 +39,9 @@ fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
         }
         ui.label(RichText::new(said(study)).small().color(theme::tokens(ui).text_weak));
     });
-    if let Some(message) = study.failure() {
+    if let Some(failure) = study.failure() {
         let rect = ui.available_rect_before_wrap();
-        plot_style::no_data(ui, rect, message);
+        plot_style::no_data(ui, rect, &say(failure));
         return;
     }
     let ways = [Direction::Up, Direction::Down].map(|direction| strobe(study, direction, settled));

@@ -10,6 +10,7 @@ use crate::app::widgets::{BadgeKind, badge, chips};
 use crate::app::{caption, fonts, theme};
 use crate::model::Parameter;
 use crate::scenario::Scenario;
+use crate::sentence::Say;
 
 /// The number under which the tables are chosen.
 pub(in crate::app) const TABLES: u8 = 1;
@@ -67,7 +68,7 @@ fn describe(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure) {
             );
             let changed = figure.scenario().map(|own| changes(&own, &context.view.scenario));
             if let Some(changed) = changed.filter(|changed| !changed.is_empty()) {
-                let list = [("list", &changed.join(", ") as &dyn std::fmt::Display)];
+                let list = [("list", &changed.join(", ") as &dyn Say)];
                 badge(ui, BadgeKind::Warning, &fill("changed: {list}", &list));
                 if ui.button(fill("Load Figure {number}", &[("number", &figure.number)])).clicked() {
                     context.commands.push(Command::LoadFigure(figure.number));

@@ -8,7 +8,7 @@ use super::spec::{Asking, Place, Spec};
 use super::{Context, facts, orbit_diagram};
 use crate::app::crew::Followed;
 use crate::app::questions;
-use crate::app::text::{fill, marked, tr};
+use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::view::{Output, Tab};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -97,8 +97,8 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     let found = context.studies.response().filter(|response| response.question.parameter == swept);
     let (branches, current): (&[ResponseCurve], bool) = match found {
         Some(Followed { curves: Ok(curves), newest, .. }) => (curves, newest),
-        Some(Followed { curves: Err(message), newest: true, .. }) => {
-            ui.label(egui::RichText::new(message).small().color(theme::tokens(ui).warning));
+        Some(Followed { curves: Err(failure), newest: true, .. }) => {
+            ui.label(egui::RichText::new(say(failure)).small().color(theme::tokens(ui).warning));
             (&[], true)
         }
         _ => (&[], false),

@@ -7,7 +7,7 @@ use super::Context;
 use super::design::safety::Safety;
 use crate::app::reading::{Reading, Tone};
 use crate::app::session::{Shown, Status};
-use crate::app::text::{fill, reworded};
+use crate::app::text::fill;
 use crate::app::{fonts, theme};
 use crate::dynamics::{Outcome, Verdict};
 use crate::model::Demand;
@@ -60,10 +60,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let drawn = frame.show(ui, |ui| {
         ui.set_min_width(ui.available_width());
         if let Some(message) = failure {
-            let text = fill(
-                "{message}. The last good state stays on the screen.",
-                &[("message", &reworded(&message))],
-            );
+            let text = fill("{message}. The last good state stays on the screen.", &[("message", &message)]);
             ui.label(RichText::new(text).color(tokens.danger));
             return;
         }

@@ -5,23 +5,27 @@
 //!
 //! `text::tr` is for fixed texts, `text::fill` for those with values, `text::marked` in tables. With Chinese comes a font
 //! of just the characters used (`assets/fonts/subset.sh chinese`). `app::speaking` has them fetched, the service worker
-//! keeps them like the rest; `scripts/precache.py` puts hashes into their names. The solver knows no languages: `text::core` finds its sentences
-//! by the words between their values, because those about motions and errors come from workers as texts; a test says
-//! each one and fails when it is not known. Texts of `index.html` and `assets/shell` are listed in `text::page`, and
-//! the page's script puts them in. What may have to be said before the app is there has a small table in `start.js`.
-//! `tests/fast/texts.rs` holds sources, catalogues and fonts together: a new text, also one in the row of a parameter or
-//! dimension, needs its line in both catalogues, and a new Chinese character another run of `subset.sh`.
+//! keeps them like the rest; `scripts/precache.py` puts hashes into their names.
+//!
+//! What the solver, the questions and links have to say is data: motions, warnings, evidence and errors are enums with
+//! values, and [`Say`] makes a [`Sentence`](crate::sentence::Sentence) of each, whose English words are a key of the
+//! catalogue again. [`say`] and the values of [`fill`] are in the reader's language, `Display` is English. A worker whose
+//! piece fails sends the sentence. What others say (a library, the browser) stays as it is.
+//!
+//! Texts of `index.html` and `assets/shell` are listed in `text::page`, and the page's script puts them in. What may have
+//! to be said before the app is there has a small table in `start.js`. `tests/fast/texts.rs` holds sources, catalogues and
+//! fonts together: a new text or sentence, also one in the row of a parameter or dimension, needs its line in both
+//! catalogues, and a new Chinese character another run of `subset.sh`.
 
-mod core;
 mod language;
 pub mod page;
 
 use std::cell::Cell;
 use std::collections::HashMap;
-use std::fmt::Display;
 
-pub use core::{motion_in_words, reworded};
 pub use language::Language;
+
+use crate::sentence::{Say, said};
 
 /// Translations by their English texts.
 type Catalogue = HashMap<String, String>;
@@ -94,36 +98,18 @@ pub fn tr(english: &'static str) -> &'static str {
     look_up(english).unwrap_or(english)
 }
 
+/// What can be told, in the reader's language.
+#[must_use]
+pub fn say(what: &dyn Say) -> String {
+    what.say().in_words(|english| look_up(english).unwrap_or(english))
+}
+
 /// A text with values: each `{name}` of the translation is replaced by the value of that name, in any order.
 ///
 /// Numbers are formatted by the caller, so that they look the same in every language.
 #[must_use]
-pub fn fill(english: &'static str, values: &[(&str, &dyn Display)]) -> String {
-    fill_with(tr(english), values.iter().map(|(name, value)| (*name, value.to_string())))
-}
-
-/// Puts values in their places; what a value says is left alone, braces and all.
-fn fill_with<'a>(text: &str, values: impl Iterator<Item = (&'a str, String)>) -> String {
-    let values: Vec<(&str, String)> = values.collect();
-    let mut out = String::with_capacity(text.len() + 16);
-    let mut rest = text;
-    while let Some((before, after)) = rest.split_once('{') {
-        out.push_str(before);
-        let found = after.split_once('}').and_then(|(name, after)| {
-            values.iter().find(|(known, _)| *known == name).map(|(_, value)| (value, after))
-        });
-        match found {
-            Some((value, after)) => {
-                out.push_str(value);
-                rest = after;
-            }
-            None => {
-                out.push('{');
-                rest = after;
-            }
-        }
-    }
-    out + rest
+pub fn fill(english: &'static str, values: &[(&str, &dyn Say)]) -> String {
+    say(&said(english, values))
 }
 
 /// Marks a text of a table as one of the catalogue; whoever shows it calls [`tr`].
@@ -135,6 +121,7 @@ pub const fn marked(english: &'static str) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::attractors::motion::{Motion, Undecided};
 
     #[test]
     fn values_go_where_their_names_stand() {
@@ -146,11 +133,26 @@ mod tests {
     }
 
     #[test]
+    fn sentences_within_sentences_are_in_the_readers_language() {
+        let undecided = Motion::Undecided { why: Undecided::EvidenceDisagrees };
+        let catalogue = r#"{"undecided: {why}":"offen: {why}","the evidence disagrees":"die Befunde widersprechen sich"}"#;
+        let english = say(&undecided);
+        install(Language::German, catalogue).expect("a catalogue");
+        let german = (say(&undecided), fill("{a}: {b}", &[("a", &undecided), ("b", &"undecided: {why}")]));
+        reset();
+        assert_eq!(english, "undecided: the evidence disagrees");
+        assert_eq!(german.0, "offen: die Befunde widersprechen sich");
+        // What others said is left alone.
+        assert_eq!(german.1, "offen: die Befunde widersprechen sich: undecided: {why}");
+        assert_eq!(undecided.to_string(), english);
+    }
+
+    #[test]
     fn a_catalogue_speaks_where_it_can_and_english_stands_in() {
         let catalogue = r#"{"Damping":"Dämpfung","{power} at {frequency}":"bei {frequency} {power}"}"#;
         assert!(install(Language::German, "[]").is_err() && language() == Language::English);
         install(Language::German, catalogue).expect("a catalogue");
-        let values: [(&str, &dyn Display); 2] = [("power", &"3 W"), ("frequency", &"8 Hz")];
+        let values: [(&str, &dyn Say); 2] = [("power", &"3 W"), ("frequency", &"8 Hz")];
         let said = (tr("Damping"), tr("Excitation"), fill("{power} at {frequency}", &values));
         assert!(speak(Language::English) && speak(Language::German) && !speak(Language::Chinese));
         reset();

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use super::{fill, marked, tr};
 use crate::model::ForceLaw;
+use crate::sentence::Say;
 
 /// The texts as they stand there, without blanks at their ends.
 pub const TEXTS: [&str; 36] = [
@@ -58,7 +59,7 @@ pub fn words() -> String {
     let mut words: BTreeMap<String, String> =
         TEXTS.iter().map(|text| ((*text).to_owned(), tr(text).to_owned())).collect();
     for degree in 2..=ForceLaw::MAX_DEGREE {
-        let values: [(&str, &dyn std::fmt::Display); 1] = [("degree", &degree)];
+        let values: [(&str, &dyn Say); 1] = [("degree", &degree)];
         words.insert(format!("Taylor, degree {degree}"), fill("Taylor, degree {degree}", &values));
     }
     serde_json::to_string(&words).unwrap_or_default()

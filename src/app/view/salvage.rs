@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 
+use crate::sentence::Sentence;
+
 /// Most parts that are dropped before all is given up.
 const MOST: usize = 64;
 
@@ -12,8 +14,8 @@ const MOST: usize = 64;
 /// The first reason, when no part can be blamed.
 pub(super) fn salvage<T>(
     mut value: Value,
-    read: impl Fn(Value) -> Result<T, String>,
-) -> Result<(T, Vec<String>), String> {
+    read: impl Fn(Value) -> Result<T, Sentence>,
+) -> Result<(T, Vec<String>), Sentence> {
     let mut dropped = Vec::new();
     let mut first = None;
     loop {
@@ -28,7 +30,10 @@ pub(super) fn salvage<T>(
             Ok(_) => true,
             Err(left) => {
                 let holder = dotted(place.rsplit_once('/').map_or("", |(holder, _)| holder));
-                if left != reason && (holder.is_empty() || !left.starts_with(&holder)) && helps.is_none() {
+                if left != reason
+                    && (holder.is_empty() || !left.to_string().starts_with(&holder))
+                    && helps.is_none()
+                {
                     helps = Some(place.clone());
                 }
                 false

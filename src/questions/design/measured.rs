@@ -49,18 +49,16 @@ impl Import {
     /// Begins to read `text`, written as `layout` says.
     ///
     /// # Errors
-    /// [`MeasuredError::Choice`] when a column does not exist or a unit is not a positive number.
+    /// [`MeasuredError::Column`] when a column does not exist, [`MeasuredError::Unit`] when a unit is no number or 0.
     pub fn new(text: Vec<u8>, layout: Layout, columns: Columns) -> Result<Self, MeasuredError> {
         for (field, value) in [("x", columns.x), ("y", columns.y)] {
             if value >= layout.columns {
-                let allowed = format!("allowed are 0 to {}", layout.columns - 1);
-                return Err(MeasuredError::Choice { field, value: value as f64, allowed });
+                return Err(MeasuredError::Column { field, value, last: layout.columns - 1 });
             }
         }
         for (field, value) in [("x_unit", columns.x_unit), ("y_unit", columns.y_unit)] {
             if !(value.is_finite() && value != 0.0) {
-                let allowed = "allowed are finite numbers other than 0".to_owned();
-                return Err(MeasuredError::Choice { field, value, allowed });
+                return Err(MeasuredError::Unit { field, value });
             }
         }
         let breaks = text.iter().enumerate().filter(|(_, byte)| **byte == b'\n').map(|(i, _)| i + 1);

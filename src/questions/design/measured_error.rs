@@ -1,28 +1,26 @@
 //! What can be wrong with a file of measured data.
 
+use crate::sentence::{Say, Sentence, not_available, said};
+
 /// What is wrong with a file, by line (from 1) and content.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}", self.say())]
 pub enum MeasuredError {
     /// There is nothing in it.
-    #[error("the file is empty")]
     Empty,
     /// In an encoding that is not read.
-    #[error("it is UTF-16 text: save it as UTF-8")]
     Utf16,
     /// No text at all.
-    #[error("it is no text: byte {place} is no character of one")]
     Binary {
         /// Which byte, from 1.
         place: usize,
     },
     /// Too much to hold.
-    #[error("it is larger than {megabytes} MB")]
     Large {
         /// What is allowed (MB).
         megabytes: usize,
     },
     /// No line of a table is so long.
-    #[error("line {line} is longer than {characters} characters")]
     LongLine {
         /// Line.
         line: usize,
@@ -30,25 +28,29 @@ pub enum MeasuredError {
         characters: usize,
     },
     /// No two columns of numbers.
-    #[error("no row with at least two numbers in the first {lines} lines; line 1 is \"{first}\"")]
     NoNumbers {
         /// Lines looked at.
         lines: usize,
         /// The first line.
         first: String,
     },
-    /// A unit or a column that cannot be.
-    #[error("{field} = {value} is not available: {allowed}")]
-    Choice {
+    /// There is no such column.
+    Column {
+        /// Which field of [`super::measured::Columns`].
+        field: &'static str,
+        /// Its value.
+        value: usize,
+        /// The last column.
+        last: usize,
+    },
+    /// No unit can be so.
+    Unit {
         /// Which field of [`super::measured::Columns`].
         field: &'static str,
         /// Its value.
         value: f64,
-        /// What is allowed.
-        allowed: String,
     },
     /// A row is too short.
-    #[error("line {line} has {fields} fields, column {column} is missing: \"{content}\"")]
     Missing {
         /// Line.
         line: u64,
@@ -60,7 +62,6 @@ pub enum MeasuredError {
         content: String,
     },
     /// A field is not a number.
-    #[error("line {line}, column {column}: \"{content}\" is not a finite number")]
     Number {
         /// Line.
         line: u64,
@@ -70,11 +71,53 @@ pub enum MeasuredError {
         content: String,
     },
     /// The text itself cannot be split.
-    #[error("line {line} cannot be read: {problem}")]
     Text {
         /// Line.
         line: u64,
         /// The reader's own reason.
         problem: String,
     },
+}
+
+impl Say for MeasuredError {
+    fn say(&self) -> Sentence {
+        match self {
+            Self::Empty => said("the file is empty", &[]),
+            Self::Utf16 => said("it is UTF-16 text: save it as UTF-8", &[]),
+            Self::Binary { place } => {
+                said("it is no text: byte {place} is no character of one", &[("place", place)])
+            }
+            Self::Large { megabytes } => {
+                said("it is larger than {megabytes} MB", &[("megabytes", megabytes)])
+            }
+            Self::LongLine { line, characters } => said(
+                "line {line} is longer than {characters} characters",
+                &[("line", line), ("characters", characters)],
+            ),
+            Self::NoNumbers { lines, first } => said(
+                "no row with at least two numbers in the first {lines} lines; line 1 is \"{first}\"",
+                &[("lines", lines), ("first", first)],
+            ),
+            Self::Column { field, value, last } => not_available(field, value, (&0, last)),
+            Self::Unit { field, value } => said(
+                "{field} = {value} is not available: {allowed}",
+                &[
+                    ("field", field),
+                    ("value", value),
+                    ("allowed", &said("allowed are finite numbers other than 0", &[])),
+                ],
+            ),
+            Self::Missing { line, fields, column, content } => said(
+                "line {line} has {fields} fields, column {column} is missing: \"{content}\"",
+                &[("line", line), ("fields", fields), ("column", column), ("content", content)],
+            ),
+            Self::Number { line, column, content } => said(
+                "line {line}, column {column}: \"{content}\" is not a finite number",
+                &[("line", line), ("column", column), ("content", content)],
+            ),
+            Self::Text { line, problem } => {
+                said("line {line} cannot be read: {problem}", &[("line", line), ("problem", problem)])
+            }
+        }
+    }
 }

@@ -11,14 +11,18 @@ use serde::forward_to_deserialize_any;
 use serde_json::{Map, Value, map};
 
 use super::{cut, words};
+use crate::sentence::{Say, Sentence, said};
 
 /// A field that cannot be read.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.say())]
 pub struct FieldError {
     /// Its path, such as `parameters.beta`; `.` is the whole.
     pub path: String,
     /// What is wrong with it.
-    pub problem: String,
+    pub problem: Sentence,
+    /// The words allowed, where it is none of these.
+    pub allowed: &'static [&'static str],
 }
 
 /// JSON as what is meant by it.
@@ -38,8 +42,8 @@ pub fn known_fields<T: DeserializeOwned>(value: &Value, beside: &[&'static str])
 }
 
 impl FieldError {
-    fn new(problem: String) -> Self {
-        Self { path: String::new(), problem }
+    fn new(problem: Sentence) -> Self {
+        Self { path: String::new(), problem, allowed: &[] }
     }
 
     /// Seen from what holds the field in a place.
@@ -56,22 +60,19 @@ impl FieldError {
     }
 
     fn unknown(name: &str, beside: &[&'static str], known: &'static [&'static str]) -> Self {
-        let known = words::other_than("known are", beside.iter().chain(known).copied());
-        Self::new(format!("unknown field `{}`{known}", cut(name)))
+        Self::new(words::unknown(name, &[beside, known].concat()))
     }
 }
 
-impl std::error::Error for FieldError {}
-
-impl fmt::Display for FieldError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path, self.problem)
+impl Say for FieldError {
+    fn say(&self) -> Sentence {
+        said("{field}: {problem}", &[("field", &self.path), ("problem", &self.problem)])
     }
 }
 
 impl de::Error for FieldError {
     fn custom<T: fmt::Display>(message: T) -> Self {
-        Self::new(message.to_string())
+        Self::new(Sentence::Verbatim(message.to_string()))
     }
 
     fn invalid_type(given: Unexpected<'_>, needed: &dyn de::Expected) -> Self {
@@ -86,9 +87,8 @@ impl de::Error for FieldError {
         Self::new(words::as_many(given, needed))
     }
 
-    fn unknown_variant(name: &str, known: &'static [&'static str]) -> Self {
-        let known = words::other_than("allowed are", known.iter().copied());
-        Self::new(format!("`{}` is not available{known}", cut(name)))
+    fn unknown_variant(name: &str, allowed: &'static [&'static str]) -> Self {
+        Self { allowed, ..Self::new(words::not_available(name, allowed)) }
     }
 
     fn unknown_field(name: &str, known: &'static [&'static str]) -> Self {
@@ -96,7 +96,7 @@ impl de::Error for FieldError {
     }
 
     fn missing_field(name: &'static str) -> Self {
-        Self::new(format!("`{name}` is missing"))
+        Self::new(words::missing(name))
     }
 }
 
@@ -174,10 +174,7 @@ impl<'de> Deserializer<'de> for At<'_> {
                 Some((name, value)) if values.len() == 1 => (name, Some(value)),
                 _ => return Err(de::Error::invalid_value(Unexpected::Map, &"map with a single key")),
             },
-            other => {
-                let given = if other.is_array() { "a list".to_owned() } else { other.to_string() };
-                return Err(FieldError::new(format!("{given} stands where {}", words::NAME)));
-            }
+            other => return Err(FieldError::new(words::no_choice(other))),
         };
         visitor.visit_enum(Choice { name, value })
     }

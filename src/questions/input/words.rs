@@ -4,65 +4,99 @@ use serde::de::{Expected, Unexpected};
 use serde_json::Value;
 
 use super::cut;
+use crate::sentence::{Say, Sentence, said};
 
 /// Something else was given than what is needed.
-pub(super) fn instead(given: &Unexpected<'_>, needed: &dyn Expected) -> String {
-    format!("{} stands where {} is needed", thing(given), kind(&needed.to_string()))
+pub(super) fn instead(given: &Unexpected<'_>, needed: &dyn Expected) -> Sentence {
+    stands(&thing(given), &kind(&needed.to_string()))
 }
 
-/// What is needed where one of several things is chosen by its name.
-pub(super) const NAME: &str = "a text in quotation marks, or an object in braces is needed";
+/// The same where one of several things is chosen by its name.
+pub(super) fn no_choice(given: &Value) -> Sentence {
+    let given = if given.is_array() { said("a list", &[]) } else { Sentence::Verbatim(given.to_string()) };
+    stands(&given, &said("a text in quotation marks, or an object in braces", &[]))
+}
+
+fn stands(given: &Sentence, needed: &Sentence) -> Sentence {
+    said("{given} stands where {needed} is needed", &[("given", given), ("needed", needed)])
+}
 
 /// Too many values, or too few.
-pub(super) fn as_many(given: usize, needed: &dyn Expected) -> String {
-    format!("{given} values stand where {} is needed", kind(&needed.to_string()))
+pub(super) fn as_many(given: usize, needed: &dyn Expected) -> Sentence {
+    let needed = kind(&needed.to_string());
+    said("{count} values stand where {needed} is needed", &[("count", &given), ("needed", &needed)])
 }
 
-/// A name that is none of those that are `known`; `words` say what these are.
-pub(super) fn other_than(words: &str, known: impl Iterator<Item = &'static str>) -> String {
-    let names: Vec<String> = known.map(|name| format!("`{name}`")).collect();
+/// No field has this name.
+pub(super) fn unknown(name: &str, known: &[&str]) -> Sentence {
+    let name = quoted(&cut(name));
+    if known.is_empty() {
+        return said("unknown field {name}: none is known here", &[("name", &name)]);
+    }
+    let names = one_of(known.iter().map(|name| quoted(name)));
+    said("unknown field {name}: known are {names}", &[("name", &name), ("names", &names)])
+}
+
+/// A word that is none of those allowed.
+pub(super) fn not_available(word: &str, allowed: &[&str]) -> Sentence {
+    let (name, names) = (quoted(&cut(word)), one_of(allowed.iter().map(|word| quoted(word))));
+    said("{name} is not available: allowed are {names}", &[("name", &name), ("names", &names)])
+}
+
+/// A field that must be there is not.
+pub(super) fn missing(name: &str) -> Sentence {
+    said("{name} is missing", &[("name", &quoted(name))])
+}
+
+fn quoted(name: &str) -> String {
+    format!("`{name}`")
+}
+
+/// Names to choose from.
+pub fn one_of(names: impl Iterator<Item = String>) -> Sentence {
+    let names: Vec<String> = names.collect();
     match names.as_slice() {
-        [] => ": none is known here".to_owned(),
-        [one, other] => format!(": {words} {one} or {other}"),
-        _ => format!(": {words} {}", names.join(", ")),
+        [one, other] => said("{one} or {other}", &[("one", one), ("other", other)]),
+        _ => Sentence::Verbatim(names.join(", ")),
     }
 }
 
 /// What was given.
-fn thing(given: &Unexpected<'_>) -> String {
-    match given {
+fn thing(given: &Unexpected<'_>) -> Sentence {
+    Sentence::Verbatim(match given {
+        Unexpected::Seq => return said("a list", &[]),
+        Unexpected::Map => return said("an object in braces", &[]),
         Unexpected::Unit | Unexpected::Option => "null".to_owned(),
-        Unexpected::Seq => "a list".to_owned(),
-        Unexpected::Map => "an object in braces".to_owned(),
         Unexpected::Str(text) => cut(&format!("{text:?}")),
         Unexpected::Float(value) => Value::from(*value).to_string(),
         Unexpected::Bool(value) => value.to_string(),
         Unexpected::Signed(value) => value.to_string(),
         Unexpected::Unsigned(value) => value.to_string(),
         other => cut(&other.to_string()),
-    }
+    })
 }
 
 /// What was needed: "usize" is a whole number.
-fn kind(needed: &str) -> String {
+fn kind(needed: &str) -> Sentence {
     let count = |prefix: &str| needed.strip_prefix(prefix).and_then(|rest| rest.split(' ').next());
     if let Some(count) = count("an array of length ").or_else(|| count("a tuple of size ")) {
-        return format!("a list of {count} values");
+        return said("a list of {count} values", &[("count", &count)]);
     }
-    if needed.starts_with("struct ") || needed.starts_with("a map") {
-        return "an object in braces".to_owned();
+    match needed {
+        "f64" | "f32" => said("a number", &[]),
+        "usize" | "u64" | "u32" | "u16" | "u8" => said("a whole number of at least 0", &[]),
+        "i64" | "i32" | "isize" => said("a whole number", &[]),
+        "bool" | "a boolean" => said("true or false", &[]),
+        "a string" | "str" | "string" | "variant identifier" => said("a text in quotation marks", &[]),
+        "a sequence" => said("a list", &[]),
+        other if other.starts_with("struct ") || other.starts_with("a map") => {
+            said("an object in braces", &[])
+        }
+        other if other.starts_with("enum ") || other.contains("variant") => {
+            said("one of the names known here", &[])
+        }
+        other => other.say(),
     }
-    let words = match needed {
-        "f64" | "f32" => "a number",
-        "usize" | "u64" | "u32" | "u16" | "u8" => "a whole number of at least 0",
-        "i64" | "i32" | "isize" => "a whole number",
-        "bool" | "a boolean" => "true or false",
-        "a string" | "str" | "string" | "variant identifier" => "a text in quotation marks",
-        "a sequence" => "a list",
-        other if other.starts_with("enum ") || other.contains("variant") => "one of the names known here",
-        other => other,
-    };
-    words.to_owned()
 }
 
 #[cfg(test)]
@@ -104,10 +138,7 @@ mod tests {
     #[test]
     fn whatever_serde_says_of_a_field_is_said_in_plain_words() {
         let many = "y".repeat(1 << 20);
-        let said = |value: Value| {
-            let error = fields::<Inner>(&value).expect_err("a wrong field");
-            format!("{}: {}", error.path, error.problem)
-        };
+        let said = |value: Value| fields::<Inner>(&value).expect_err("a wrong field").to_string();
         for (value, expected) in [
             (json!({"number": "fast"}), "number: \"fast\" stands where a number is needed"),
             (json!({"number": [1]}), "number: a list stands where a number is needed"),

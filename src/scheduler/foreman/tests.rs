@@ -20,7 +20,7 @@ impl Piece for Number {
 #[derive(Debug, Default)]
 struct Three {
     handed: usize,
-    found: Vec<(usize, Result<String, String>)>,
+    found: Vec<(usize, Result<String, Failure>)>,
 }
 
 impl Study for Three {
@@ -41,7 +41,7 @@ impl Study for Three {
     }
 }
 
-fn answer(text: &str) -> Result<Finding, String> {
+fn answer(text: &str) -> Result<Finding, Failure> {
     Ok(Finding::Here(Box::new(text.to_owned())))
 }
 

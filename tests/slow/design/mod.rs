@@ -119,7 +119,7 @@ fn curves_agree(shaking: Shaking) -> TestResult {
     let mut study = HarvestStudy::new(scenario.clone(), question, frequency)?;
     complete(&mut study);
     assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
-    let branches = study.branches().ok_or("known")?.map_err(str::to_owned)?;
+    let branches = study.branches().ok_or("known")?.map_err(ToString::to_string)?;
     assert!(branches.iter().any(|branch| branch.periods == 2));
     for direction in [Direction::Up, Direction::Down] {
         assert_eq!(study.swept(direction).len(), 23);
@@ -174,7 +174,7 @@ fn curves_agree(shaking: Shaking) -> TestResult {
 fn every_ceramic_has_its_row_and_harder_ones_need_less() -> TestResult {
     let mut table = Materials::default().table(&figure_9());
     complete(&mut table);
-    let rows: Vec<_> = table.found().flatten().collect::<Result<_, _>>()?;
+    let rows: Vec<_> = table.found().flatten().collect::<Result<_, _>>().map_err(ToString::to_string)?;
     assert_eq!(rows.len(), 9);
     for row in &rows {
         println!("{row:?}");
@@ -205,7 +205,7 @@ fn every_ceramic_has_its_row_and_harder_ones_need_less() -> TestResult {
 fn trust_is_a_table_of_modes_and_laws() -> TestResult {
     let mut table = Trust { quantity: Quantity::Voltage }.table(&figure_9());
     complete(&mut table);
-    let entries: Vec<_> = table.found().flatten().collect::<Result<_, _>>()?;
+    let entries: Vec<_> = table.found().flatten().collect::<Result<_, _>>().map_err(ToString::to_string)?;
     assert_eq!(entries.len(), 32);
     let of = |modes, law| entries.iter().find(|e| e.modes == modes && e.law == law).and_then(|e| e.value);
     for entry in &entries {

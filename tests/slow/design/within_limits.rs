@@ -142,7 +142,7 @@ fn a_swept_curve_jumps_where_the_branch_folds_and_its_band_ends_there() -> TestR
     let mut study = HarvestStudy::new(scenario, question, frequency)?;
     complete(&mut study);
     assert!(study.finished() && study.failure().is_none() && study.progress() == 1.0);
-    let curves = study.branches().ok_or("known")?.map_err(str::to_owned)?;
+    let curves = study.branches().ok_or("known")?.map_err(ToString::to_string)?;
     let folds =
         curves.iter().flat_map(|curve| &curve.changes).filter(|change| change.kind == Instability::Fold);
     let fold = folds.map(|change| units.hertz(change.point.value)).fold(0.0, f64::max);

@@ -1,14 +1,19 @@
 //! What the verdict on a motion rests on: each way of looking at it, what it says, and whether it agrees with the class.
 
-use serde::{Deserialize, Serialize};
+use std::fmt;
+
+use serde::ser::SerializeStruct as _;
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::lyapunov::{Exponent, Sign};
 use super::motion::{Cell, Motion, Reached};
+use super::poincare::Recurrence;
 use super::rotation::Rotation;
 use super::signature::Signature;
-use super::voltage_spectrum::VoltageSpectrum;
+use super::voltage_spectrum::{Peak, VoltageSpectrum};
 use crate::dynamics::orbits::Orbit;
 use crate::number::in_sentence;
+use crate::sentence::{Say, Sentence, said};
 
 /// Distance from a periodic motion below which its stroboscopic points must repeat.
 const SETTLED: f64 = 1e-4;
@@ -43,37 +48,253 @@ pub enum EvidenceSource {
     Spectrum,
 }
 
+/// Where starts that differ by rounding lead.
+#[derive(Debug, Clone, Copy, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
+pub struct End {
+    /// How many of them.
+    pub count: usize,
+    /// To a motion of this class.
+    pub motion: Motion,
+    /// Root mean square of its voltage (V); `None` when it ends.
+    pub v_rms: Option<f64>,
+}
+
+/// What looking at a motion shows.
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
+pub enum Observation {
+    /// The run ended so.
+    Run(Motion),
+    /// There is a periodic motion near the last state.
+    Multipliers {
+        /// Its period, in excitation periods.
+        periods: usize,
+        /// Whether it is stable.
+        stable: bool,
+        /// Modulus of its largest multiplier.
+        modulus: f64,
+        /// How far the run ends from it, relative to its amplitude.
+        distance: f64,
+    },
+    /// Whether the stroboscopic points repeat.
+    Recurrence {
+        /// What they say.
+        found: Recurrence,
+        /// The period of the motion, of which theirs is a multiple as they spiral in.
+        multiple_of: Option<usize>,
+    },
+    /// The stroboscopic points lie on closed curves, a set of this dimension.
+    ClosedCurves(f64),
+    /// They fill a surface, a set of this dimension.
+    Surface(f64),
+    /// They are scattered over a set of this dimension.
+    Scattered(f64),
+    /// Where starts that differ by rounding lead.
+    Beside(Vec<End>),
+    /// How often the motion turns about its torus in an excitation period.
+    Rotation(Rotation),
+    /// The 0-1 test: near 0 on a regular motion, near 1 on a chaotic one.
+    ZeroOne(f64),
+    /// The largest Lyapunov exponent.
+    Exponent {
+        /// The exponent.
+        found: Exponent,
+        /// What it should be by the multipliers of the periodic motion reached (per dimensionless time).
+        by_multipliers: Option<f64>,
+    },
+    /// The spectrum of the voltage.
+    Spectrum {
+        /// Its strongest lines.
+        peaks: Vec<Peak>,
+        /// On a torus, the second basic frequency (dimensionless).
+        basic: Option<f64>,
+        /// Share of the mean square in the lines that the motion's class allows.
+        share: f64,
+    },
+}
+
 /// One piece of evidence.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Evidence {
-    /// Where it comes from.
-    pub source: EvidenceSource,
-    /// What it says, one line.
-    pub says: String,
+    /// What it shows.
+    pub shows: Observation,
     /// Whether it agrees with the class; `None` when it neither supports nor contradicts it.
     pub agrees: Option<bool>,
 }
 
+impl Say for Observation {
+    fn say(&self) -> Sentence {
+        let dimension = |dimension: &f64| format!("{dimension:.2}");
+        match self {
+            Self::Run(motion) => motion.say(),
+            Self::Multipliers { periods, stable, modulus, distance } => {
+                let values: [(&str, &dyn Say); 3] = [
+                    ("periods", periods),
+                    ("modulus", &format!("{modulus:.6}")),
+                    ("distance", &in_sentence(*distance)),
+                ];
+                if *stable {
+                    said(
+                        "period {periods} stable, largest modulus {modulus}; the run ends {distance} of the amplitude from it",
+                        &values,
+                    )
+                } else {
+                    said(
+                        "period {periods} unstable, largest modulus {modulus}; the run ends {distance} of the amplitude from it",
+                        &values,
+                    )
+                }
+            }
+            Self::Recurrence { found, multiple_of } => recurrence(found, *multiple_of),
+            Self::ClosedCurves(of) => said(
+                "stroboscopic points lie on closed curves: dimension {dimension}",
+                &[("dimension", &dimension(of))],
+            ),
+            Self::Surface(of) => said(
+                "stroboscopic points fill a surface: dimension {dimension}",
+                &[("dimension", &dimension(of))],
+            ),
+            Self::Scattered(of) => said(
+                "stroboscopic points are scattered: dimension {dimension}",
+                &[("dimension", &dimension(of))],
+            ),
+            Self::Beside(ends) => {
+                let ends = Sentence::list(ends.iter().map(Say::say), "; ");
+                said("starts that differ by rounding: {ends}", &[("ends", &ends)])
+            }
+            Self::Rotation(Rotation { number, error }) => said(
+                "rotation number {number}, the halves of the record differ by {error}",
+                &[("number", &format!("{number:.9}")), ("error", &in_sentence(*error))],
+            ),
+            Self::ZeroOne(value) => {
+                said("0-1 test {value}: 0 is regular, 1 chaotic", &[("value", &format!("{value:.2}"))])
+            }
+            Self::Exponent { found, by_multipliers } => exponent(found, *by_multipliers),
+            Self::Spectrum { peaks, .. } if peaks.is_empty() => said("no voltage", &[]),
+            Self::Spectrum { peaks, basic, share } => spectrum(peaks, *basic, *share),
+        }
+    }
+}
+
+impl Say for End {
+    fn say(&self) -> Sentence {
+        let Self { count, motion, v_rms } = self;
+        match v_rms.map(in_sentence) {
+            Some(volts) => said(
+                "{count} × {motion}, {volts} V rms",
+                &[("count", count), ("motion", motion), ("volts", &volts)],
+            ),
+            None => said("{count} × {motion}", &[("count", count), ("motion", motion)]),
+        }
+    }
+}
+
+fn recurrence(found: &Recurrence, multiple_of: Option<usize>) -> Sentence {
+    let part = in_sentence(found.defect);
+    let mut text = match found.period {
+        Some(1) => said("stroboscopic points repeat after 1 period to {part}", &[("part", &part)]),
+        Some(periods) => said(
+            "stroboscopic points repeat after {periods} periods to {part}",
+            &[("periods", &periods), ("part", &part)],
+        ),
+        None => {
+            said("stroboscopic points do not repeat within 8 periods (off by {part})", &[("part", &part)])
+        }
+    };
+    if found.period.is_some() && !found.settled {
+        text = said("{text}, still settling", &[("text", &text)]);
+    }
+    if let Some(periods) = multiple_of {
+        text = said(
+            "{text}: a multiple of {periods}, as they spiral in",
+            &[("text", &text), ("periods", &periods)],
+        );
+    }
+    text
+}
+
+fn exponent(found: &Exponent, by_multipliers: Option<f64>) -> Sentence {
+    let value = format!("{} ± {}", in_sentence(found.value), in_sentence(found.half_width));
+    let value: [(&str, &dyn Say); 1] = [("value", &value)];
+    let text = if found.sign() == Sign::Zero {
+        said("exponent {value}: zero", &value)
+    } else if found.converged {
+        said("exponent {value}", &value)
+    } else {
+        said("exponent {value}, not converged", &value)
+    };
+    match by_multipliers.map(in_sentence) {
+        Some(value) => said("{text}; by the multipliers {value}", &[("text", &text), ("value", &value)]),
+        None => text,
+    }
+}
+
+fn spectrum(peaks: &[Peak], basic: Option<f64>, share: f64) -> Sentence {
+    let line = |peak: &Peak| {
+        let name = peak.label.map_or_else(|| format!("{:.4}", peak.omega), |label| label.to_string());
+        said("{line} at {volts} V", &[("line", &name), ("volts", &in_sentence(peak.amplitude))])
+    };
+    let mut parts: Vec<Sentence> = peaks.iter().map(line).collect();
+    parts.extend(basic.map(|basic| Sentence::Verbatim(format!("ν = {basic:.5}"))));
+    if share < LINES {
+        let percent = in_sentence(100.0 * (1.0 - share));
+        parts.push(said("{percent} % of its power between the lines", &[("percent", &percent)]));
+    }
+    Sentence::list(parts, ", ")
+}
+
+/// In English, where it comes from before what does not say it.
+impl fmt::Display for Evidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self.source() {
+            EvidenceSource::Run => "run: ",
+            EvidenceSource::Multipliers => "multipliers: ",
+            EvidenceSource::Spectrum => "spectrum: ",
+            _ => "",
+        })?;
+        self.shows.say().fmt(f)
+    }
+}
+
+/// For machines: where it comes from, what it says in English, and whether it agrees.
+impl Serialize for Evidence {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut entries = serializer.serialize_struct("Evidence", 3)?;
+        entries.serialize_field("source", &self.source())?;
+        entries.serialize_field("says", &self.to_string())?;
+        entries.serialize_field("agrees", &self.agrees)?;
+        entries.end()
+    }
+}
+
 impl Evidence {
-    fn new(source: EvidenceSource, agrees: Option<bool>, says: String) -> Self {
-        Self { source, says, agrees }
+    /// What supports the class.
+    pub(super) fn supporting(shows: Observation) -> Self {
+        Self { shows, agrees: Some(true) }
     }
 
-    /// A run that ended.
-    pub(super) fn run(motion: Motion) -> Self {
-        Self::new(EvidenceSource::Run, Some(true), format!("run: {motion}"))
+    /// Where it comes from.
+    pub fn source(&self) -> EvidenceSource {
+        match self.shows {
+            Observation::Run(_) => EvidenceSource::Run,
+            Observation::Multipliers { .. } => EvidenceSource::Multipliers,
+            Observation::Recurrence { .. } => EvidenceSource::Recurrence,
+            Observation::ClosedCurves(_) | Observation::Surface(_) | Observation::Scattered(_) => {
+                EvidenceSource::Points
+            }
+            Observation::Beside(_) => EvidenceSource::Beside,
+            Observation::Rotation(_) => EvidenceSource::Rotation,
+            Observation::ZeroOne(_) => EvidenceSource::ZeroOne,
+            Observation::Exponent { .. } => EvidenceSource::Exponent,
+            Observation::Spectrum { .. } => EvidenceSource::Spectrum,
+        }
     }
 
     /// The multipliers of the periodic motion reached.
     pub(super) fn multipliers(orbit: &Orbit, distance: f64) -> Self {
-        let says = format!(
-            "multipliers: period {} {}, largest modulus {:.6}; the run ends {} of the amplitude from it",
-            orbit.periods,
-            if orbit.stable() { "stable" } else { "unstable" },
-            orbit.largest_multiplier().norm(),
-            in_sentence(distance),
-        );
-        Self::new(EvidenceSource::Multipliers, Some(orbit.stable()), says)
+        let (periods, stable) = (orbit.periods, orbit.stable());
+        let modulus = orbit.largest_multiplier().norm();
+        let shows = Observation::Multipliers { periods, stable, modulus, distance };
+        Self { shows, agrees: Some(stable) }
     }
 
     /// Whether the stroboscopic points repeat.
@@ -82,20 +303,12 @@ impl Evidence {
     /// better; so any multiple agrees with period p.
     pub(super) fn recurrence(reached: &Reached) -> Option<Self> {
         let found = reached.recurrence?;
-        let to = in_sentence(found.defect);
-        let mut says = match (found.period, found.settled) {
-            (Some(period), true) => format!("stroboscopic points repeat after {} to {to}", periods(period)),
-            (Some(period), false) => {
-                format!("stroboscopic points repeat after {} to {to}, still settling", periods(period))
+        let multiple_of = match (reached.motion, found.period) {
+            (Motion::Periodic { periods }, Some(period)) => {
+                (period > periods && period.is_multiple_of(periods)).then_some(periods)
             }
-            (None, _) => format!("stroboscopic points do not repeat within 8 periods (off by {to})"),
+            _ => None,
         };
-        if let (Motion::Periodic { periods }, Some(period)) = (reached.motion, found.period)
-            && period > periods
-            && period.is_multiple_of(periods)
-        {
-            says.push_str(&format!(": a multiple of {periods}, as they spiral in"));
-        }
         let agrees = match (reached.motion, found.period) {
             (Motion::Periodic { periods }, Some(period)) if found.settled => {
                 Some(period.is_multiple_of(periods))
@@ -109,44 +322,26 @@ impl Evidence {
             (Motion::Quasiperiodic | Motion::Chaotic, None) => Some(true),
             _ => None,
         };
-        Some(Self::new(EvidenceSource::Recurrence, agrees, says))
+        Some(Self { shows: Observation::Recurrence { found, multiple_of }, agrees })
     }
 
     /// The set that the stroboscopic points fill.
     pub(super) fn points(motion: Motion, dimension: f64) -> Self {
-        let (shape, agrees) = match motion {
-            Motion::Quasiperiodic if dimension < 1.5 => ("lie on closed curves", Some(true)),
-            Motion::Quasiperiodic => ("fill a surface", Some(true)),
-            _ => ("are scattered", None),
+        let (shows, agrees) = match motion {
+            Motion::Quasiperiodic if dimension < 1.5 => (Observation::ClosedCurves(dimension), Some(true)),
+            Motion::Quasiperiodic => (Observation::Surface(dimension), Some(true)),
+            _ => (Observation::Scattered(dimension), None),
         };
-        Self::new(
-            EvidenceSource::Points,
-            agrees,
-            format!("stroboscopic points {shape}: dimension {dimension:.2}"),
-        )
+        Self { shows, agrees }
     }
 
     /// Where starts that differ by rounding lead, and how many of them.
     pub(super) fn beside(ends: &[(Signature, usize)]) -> Self {
         let end = |(signature, count): &(Signature, usize)| {
             let Cell { motion, v_rms, .. } = signature.cell;
-            let volts = if signature.cell.lasts() {
-                format!(", {} V rms", in_sentence(v_rms))
-            } else {
-                String::new()
-            };
-            format!("{count} × {motion}{volts}")
+            End { count: *count, motion, v_rms: signature.cell.lasts().then_some(v_rms) }
         };
-        let all: Vec<String> = ends.iter().map(end).collect();
-        Self::new(EvidenceSource::Beside, None, format!("starts that differ by rounding: {}", all.join("; ")))
-    }
-
-    /// The rotation number of a torus.
-    pub(super) fn rotation(rotation: Rotation) -> Self {
-        let Rotation { number, error } = rotation;
-        let says =
-            format!("rotation number {number:.9}, the halves of the record differ by {}", in_sentence(error));
-        Self::new(EvidenceSource::Rotation, Some(true), says)
+        Self { shows: Observation::Beside(ends.iter().map(end).collect()), agrees: None }
     }
 
     /// The 0-1 test.
@@ -156,24 +351,17 @@ impl Evidence {
             Motion::Chaotic => Some(found > 0.5),
             _ => None,
         };
-        Self::new(EvidenceSource::ZeroOne, agrees, format!("0-1 test {found:.2}: 0 is regular, 1 chaotic"))
+        Self { shows: Observation::ZeroOne(found), agrees }
     }
 
     /// The exponent, which must be that of the multipliers on a periodic motion.
     pub(super) fn exponent(motion: Motion, exponent: &Exponent, orbit: Option<&Orbit>, period: f64) -> Self {
-        let sign = exponent.sign();
-        let mut says =
-            format!("exponent {} ± {}", in_sentence(exponent.value), in_sentence(exponent.half_width));
-        if sign == Sign::Zero {
-            says.push_str(": zero");
-        } else if !exponent.converged {
-            says.push_str(", not converged");
-        }
-        let agrees = match (motion, sign) {
+        let mut by_multipliers = None;
+        let agrees = match (motion, exponent.sign()) {
             (_, Sign::Open) => None,
             (Motion::Periodic { .. }, Sign::Negative) => Some(orbit.is_none_or(|orbit| {
-                let expected = orbit.largest_multiplier().norm().ln() / (period * orbit.periods as f64);
-                says.push_str(&format!("; by the multipliers {}", in_sentence(expected)));
+                let rate = orbit.largest_multiplier().norm().ln() / (period * orbit.periods as f64);
+                by_multipliers = Some(rate);
                 exponent.fits(orbit, period)
             })),
             // So weakly stable that the record cannot tell it from neutral.
@@ -183,52 +371,29 @@ impl Evidence {
             (Motion::Chaotic, sign) => Some(sign == Sign::Positive),
             _ => None,
         };
-        Self::new(EvidenceSource::Exponent, agrees, says)
+        Self { shows: Observation::Exponent { found: *exponent, by_multipliers }, agrees }
     }
 
     /// The spectrum: its strongest peaks, and whether they are those of the class.
     pub(super) fn spectrum(motion: Motion, found: &VoltageSpectrum) -> Self {
-        let mut parts: Vec<String> = found
-            .peaks
-            .iter()
-            .take(NAMED)
-            .map(|peak| {
-                let name = peak.label.map_or_else(|| format!("{:.4}", peak.omega), |label| label.to_string());
-                format!("{name} at {} V", in_sentence(peak.amplitude))
-            })
-            .collect();
-        if let Some(basic) = found.basic {
-            parts.push(format!("ν = {basic:.5}"));
-        }
-        let regular = found.share >= LINES;
-        if !regular {
-            parts.push(format!(
-                "{} % of its power between the lines",
-                in_sentence(100.0 * (1.0 - found.share))
-            ));
-        }
-        // A voltage that stays zero says nothing.
-        let silent = found.peaks.is_empty();
+        let VoltageSpectrum { peaks, basic, share, .. } = found;
+        let regular = *share >= LINES;
         let agrees = match motion {
-            _ if silent => None,
+            // A voltage that stays zero says nothing.
+            _ if peaks.is_empty() => None,
             Motion::Periodic { .. } => Some(regular),
-            Motion::Quasiperiodic => Some(regular && found.basic.is_some()),
+            Motion::Quasiperiodic => Some(regular && basic.is_some()),
             Motion::Chaotic if !regular => Some(true),
             _ => None,
         };
-        let says = if silent { "no voltage".to_owned() } else { parts.join(", ") };
-        Self::new(EvidenceSource::Spectrum, agrees, format!("spectrum: {says}"))
+        let peaks = peaks.iter().take(NAMED).copied().collect();
+        Self { shows: Observation::Spectrum { peaks, basic: *basic, share: *share }, agrees }
     }
-}
-
-fn periods(count: usize) -> String {
-    if count == 1 { "1 period".to_owned() } else { format!("{count} periods") }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::attractors::poincare::Recurrence;
 
     fn reached(motion: Motion, recurrence: Recurrence, distance: Option<f64>) -> Reached {
         Reached {

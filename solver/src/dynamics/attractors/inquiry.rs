@@ -4,7 +4,7 @@
 //! On a periodic motion, exponent and spectrum are those of the motion itself, started on it, so that nothing of the
 //! transient is in them; were it unstable after all, it would be left.
 
-use super::evidence::{Evidence, EvidenceSource};
+use super::evidence::{Evidence, EvidenceSource, Observation};
 use super::lyapunov::{Exponent, Lyapunov, Progress, Sign};
 use super::motion::{Cell, Motion, Reached, Undecided};
 use super::rotation::{Rotation, rotation};
@@ -244,7 +244,7 @@ impl Findings<'_> {
         let rotation = self.rotation();
         let rests_on = self.evidence(rotation, others);
         let disagreeing: Vec<EvidenceSource> =
-            rests_on.iter().filter(|piece| piece.agrees == Some(false)).map(|piece| piece.source).collect();
+            rests_on.iter().filter(|piece| piece.agrees == Some(false)).map(Evidence::source).collect();
         let motion = if others.beside.len() > 1 {
             Motion::Undecided { why: Undecided::DependsOnRounding }
         } else if disagreeing.is_empty() {
@@ -338,7 +338,7 @@ impl Findings<'_> {
             evidence.push(Evidence::beside(&others.beside));
         }
         if !reached.cell().lasts() {
-            evidence.push(Evidence::run(motion));
+            evidence.push(Evidence::supporting(Observation::Run(motion)));
             return evidence;
         }
         let period = self.system.parameters.period();
@@ -348,7 +348,7 @@ impl Findings<'_> {
         );
         evidence.extend(Evidence::recurrence(reached));
         evidence.extend(self.dimension().map(|dimension| Evidence::points(motion, dimension)));
-        evidence.extend(rotation.map(Evidence::rotation));
+        evidence.extend(rotation.map(|found| Evidence::supporting(Observation::Rotation(found))));
         evidence.extend(reached.zero_one.map(|found| Evidence::zero_one(motion, found)));
         evidence.extend(self.exponent.map(|exponent| Evidence::exponent(motion, &exponent, orbit, period)));
         evidence.extend(self.spectrum.map(|spectrum| Evidence::spectrum(motion, spectrum)));

@@ -1,8 +1,6 @@
 //! What motion a start leads to: the classes, and what is known of the motion reached.
 //! [`super::settle`] computes it.
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
 
 use super::lyapunov::Exponent;
@@ -10,6 +8,7 @@ use super::poincare::Recurrence;
 use super::rotation::Rotation;
 use crate::dynamics::orbits::{Measures, Orbit};
 use crate::model::Demand;
+use crate::sentence::{Say, Sentence, in_english, said};
 
 /// The class of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
@@ -75,35 +74,38 @@ impl Motion {
     }
 }
 
-impl fmt::Display for Motion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Say for Motion {
+    fn say(&self) -> Sentence {
+        let at = |time: &f64| format!("{time:.4}");
         match self {
-            Self::Periodic { periods } => write!(f, "period {periods}"),
-            Self::Quasiperiodic => f.write_str("quasiperiodic"),
-            Self::Chaotic => f.write_str("chaotic"),
-            Self::Escape { time } => write!(f, "escape at t = {time:.4}"),
-            Self::Contact { time } => write!(f, "contact at t = {time:.4}"),
-            Self::Undecided { why } => write!(f, "undecided: {why}"),
+            Self::Periodic { periods } => said("period {periods}", &[("periods", periods)]),
+            Self::Quasiperiodic => said("quasiperiodic", &[]),
+            Self::Chaotic => said("chaotic", &[]),
+            Self::Escape { time } => said("escape at t = {time}", &[("time", &at(time))]),
+            Self::Contact { time } => said("contact at t = {time}", &[("time", &at(time))]),
+            Self::Undecided { why } => said("undecided: {why}", &[("why", why)]),
         }
     }
 }
 
-impl fmt::Display for Undecided {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::TransientNotGone => "the transient has not gone",
-            Self::NearUnstable => "the run is still near an unstable periodic motion",
-            Self::ExponentOpen => "the Lyapunov exponent has not converged",
+impl Say for Undecided {
+    fn say(&self) -> Sentence {
+        match self {
+            Self::TransientNotGone => said("the transient has not gone", &[]),
+            Self::NearUnstable => said("the run is still near an unstable periodic motion", &[]),
+            Self::ExponentOpen => said("the Lyapunov exponent has not converged", &[]),
             Self::PointsScattered => {
-                "the exponent is zero, but the stroboscopic points lie on no closed curves"
+                said("the exponent is zero, but the stroboscopic points lie on no closed curves", &[])
             }
-            Self::Unresolved => "the motion is too fast to differentiate",
-            Self::EvidenceDisagrees => "the evidence disagrees",
-            Self::MayBeTransient => "it moves chaotically, but may still settle",
-            Self::DependsOnRounding => "the outcome depends on rounding",
-        })
+            Self::Unresolved => said("the motion is too fast to differentiate", &[]),
+            Self::EvidenceDisagrees => said("the evidence disagrees", &[]),
+            Self::MayBeTransient => said("it moves chaotically, but may still settle", &[]),
+            Self::DependsOnRounding => said("the outcome depends on rounding", &[]),
+        }
     }
 }
+
+in_english!(Motion);
 
 /// What a start leads to.
 #[derive(Debug, Clone, PartialEq)]

@@ -21,7 +21,7 @@ pub struct PhasePoint {
 }
 
 /// What the last stroboscopic points of a run say about its motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Recurrence {
     /// The motion repeats after this many excitation periods; `None` when it does not within eight.
     pub period: Option<usize>,

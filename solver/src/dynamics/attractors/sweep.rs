@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::motion::{Cell, Motion};
 use super::settle::{Effort, reach};
-use crate::dynamics::integration::{Collocation, IntegrationError, Settings};
+use crate::dynamics::integration::{Collocation, IntegrationError, RunError, Settings};
 use crate::model::{ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem, Shaking};
 
 /// How long each value is held, in excitation periods.
@@ -98,12 +98,12 @@ pub struct SweepCourse<'a> {
 /// points, and the state in which the last one settled unless its motion ended.
 ///
 /// # Errors
-/// [`SweepError`] when a value is out of range or its motion cannot be resolved.
+/// [`RunError`] when a value is out of range or its motion cannot be resolved.
 pub fn sweep(
     course: SweepCourse<'_>,
     values: &[f64],
     state: Option<&[f64]>,
-) -> Result<(Vec<SweepPoint>, Option<Vec<f64>>), SweepError> {
+) -> Result<(Vec<SweepPoint>, Option<Vec<f64>>), RunError> {
     let SweepCourse { set, model, parameter, shaking, start, dwell } = course;
     let mut carried = state.map(<[f64]>::to_vec);
     let mut points = Vec::with_capacity(values.len());
@@ -123,17 +123,6 @@ pub fn sweep(
         carried = held.end;
     }
     Ok((points, carried))
-}
-
-/// Why a sweep has no answer.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SweepError {
-    /// A value is out of range.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// A motion cannot be integrated.
-    #[error(transparent)]
-    Integration(#[from] IntegrationError),
 }
 
 /// One value held.

@@ -1,7 +1,5 @@
 //! One verdict on the motion that a start leads to, with all it rests on. [`super::Inquiry`] computes it.
 
-use std::fmt;
-
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +16,7 @@ use crate::model::force::Exact;
 use crate::model::limits::LINEAR_BEAM;
 use crate::model::{ForceLaw, ReducedSystem};
 use crate::number::in_sentence;
+use crate::sentence::{Say, Sentence, in_english, said};
 
 /// Distance from the periodic motion, relative to the amplitude, beyond which the transient has not gone.
 const TRANSIENT: f64 = 1e-3;
@@ -100,20 +99,26 @@ pub struct Coexisting {
     pub power: f64,
 }
 
-impl fmt::Display for Coexisting {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let start = match self.start {
-            OtherStart::ForcedMotion => "on the stable forced motion",
-            OtherStart::Rest => "at rest",
-            OtherStart::Beside => "that differs by rounding",
-            OtherStart::OnTheWay => "on a motion met on the way",
-        };
-        write!(
-            f,
-            "a start {start} leads to another motion: {}, {} V rms",
-            self.motion,
-            in_sentence(self.v_rms)
-        )
+impl Say for Coexisting {
+    fn say(&self) -> Sentence {
+        let values: [(&str, &dyn Say); 2] = [("motion", &self.motion), ("volts", &in_sentence(self.v_rms))];
+        match self.start {
+            OtherStart::ForcedMotion => said(
+                "a start on the stable forced motion leads to another motion: {motion}, {volts} V rms",
+                &values,
+            ),
+            OtherStart::Rest => {
+                said("a start at rest leads to another motion: {motion}, {volts} V rms", &values)
+            }
+            OtherStart::Beside => said(
+                "a start that differs by rounding leads to another motion: {motion}, {volts} V rms",
+                &values,
+            ),
+            OtherStart::OnTheWay => said(
+                "a start on a motion met on the way leads to another motion: {motion}, {volts} V rms",
+                &values,
+            ),
+        }
     }
 }
 
@@ -159,54 +164,48 @@ pub enum Warning {
     ForcedMotionUnknown,
 }
 
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Say for Warning {
+    fn say(&self) -> Sentence {
         match *self {
-            Self::TransientLeft { fraction } => {
-                write!(
-                    f,
-                    "the transient has not gone: the run ends {} % of the amplitude away",
-                    in_sentence(100.0 * fraction)
-                )
-            }
-            Self::TransientChaos { time } => {
-                write!(f, "neighbouring motions diverge until it settles, at t = {}", in_sentence(time))
-            }
-            Self::WouldTake { time } => {
-                write!(f, "to decide would take about {} more in t", in_sentence(time))
-            }
-            Self::ForceLaw { missing } => {
-                let word = if missing > 0.0 { "weak" } else { "strong" };
-                write!(
-                    f,
-                    "the magnet force beyond its linear part is {} % too {word} at the closest approach under this force law",
-                    in_sentence(100.0 * missing.abs())
-                )
-            }
-            Self::PassesMagnet => {
-                f.write_str("the tip passes through the magnet: only the exact force law knows of contact")
-            }
-            Self::LargeDeflection { tip } => {
-                write!(
-                    f,
-                    "the tip moves by {} of the beam's length, where the beam is no linear one",
-                    in_sentence(tip)
-                )
-            }
-            Self::TruncatedBarrier => f.write_str(
-                "the escape is over the barrier of the truncated force law; the exact one has none",
+            Self::TransientLeft { fraction } => said(
+                "the transient has not gone: the run ends {percent} % of the amplitude away",
+                &[("percent", &in_sentence(100.0 * fraction))],
             ),
-            Self::ForcedMotionEnds { beta } => {
-                write!(
-                    f,
-                    "the motion that grows from rest with beta can be followed to beta = {} only",
-                    in_sentence(beta)
-                )
+            Self::TransientChaos { time } => said(
+                "neighbouring motions diverge until it settles, at t = {time}",
+                &[("time", &in_sentence(time))],
+            ),
+            Self::WouldTake { time } => {
+                said("to decide would take about {time} more in t", &[("time", &in_sentence(time))])
             }
-            Self::ForcedMotionUnknown => f.write_str("the forced motion could not be computed"),
+            Self::ForceLaw { missing } if missing > 0.0 => said(
+                "the magnet force beyond its linear part is {percent} % too weak at the closest approach under this force law",
+                &[("percent", &in_sentence(100.0 * missing))],
+            ),
+            Self::ForceLaw { missing } => said(
+                "the magnet force beyond its linear part is {percent} % too strong at the closest approach under this force law",
+                &[("percent", &in_sentence(-100.0 * missing))],
+            ),
+            Self::PassesMagnet => {
+                said("the tip passes through the magnet: only the exact force law knows of contact", &[])
+            }
+            Self::LargeDeflection { tip } => said(
+                "the tip moves by {part} of the beam's length, where the beam is no linear one",
+                &[("part", &in_sentence(tip))],
+            ),
+            Self::TruncatedBarrier => {
+                said("the escape is over the barrier of the truncated force law; the exact one has none", &[])
+            }
+            Self::ForcedMotionEnds { beta } => said(
+                "the motion that grows from rest with beta can be followed to beta = {beta} only",
+                &[("beta", &in_sentence(beta))],
+            ),
+            Self::ForcedMotionUnknown => said("the forced motion could not be computed", &[]),
         }
     }
 }
+
+in_english!(Coexisting, Warning);
 
 /// How wrong the force law of `system` is where its tip comes to `tip_min` (in beam lengths); `None` when it is exact,
 /// without magnets, or right within a tenth.
@@ -223,7 +222,7 @@ pub fn force_law_warning(system: &ReducedSystem, tip_min: f64) -> Option<Warning
 }
 
 /// What is known of the motion that a start leads to.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+#[derive(Debug, Clone, PartialEq, Serialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Verdict {
     /// Its class; undecided when the evidence disagrees.
     pub motion: Motion,
@@ -263,13 +262,21 @@ pub struct Verdict {
 
 /// Why there is no verdict.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}", self.say())]
 pub enum VerdictError {
     /// The motion cannot be integrated.
-    #[error(transparent)]
     Integration(#[from] IntegrationError),
     /// The voltage has no spectrum.
-    #[error(transparent)]
     Spectrum(#[from] VoltageSpectrumError),
+}
+
+impl Say for VerdictError {
+    fn say(&self) -> Sentence {
+        match self {
+            Self::Integration(error) => error.say(),
+            Self::Spectrum(error) => error.say(),
+        }
+    }
 }
 
 /// The warning about a deflection between `tip_min` and `tip_max` (in beam lengths).

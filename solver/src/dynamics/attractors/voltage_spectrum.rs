@@ -7,6 +7,7 @@ use super::spectral_label::{Frequencies, Label};
 use super::spectrum::{SpectralLine, Spectrum, SpectrumError};
 use crate::dynamics::integration::{IntegrationError, Outcome, Settings, Trajectory};
 use crate::model::ReducedSystem;
+use crate::sentence::{Say, Sentence, said};
 use crate::theory::spectrum::eigenvalues;
 
 /// Periods of a record: multiples of all periods up to eight where there is room, so that subharmonics fall on bins.
@@ -151,17 +152,26 @@ impl VoltageSpectrum {
 
 /// Why there is no spectrum of a motion.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}", self.say())]
 pub enum VoltageSpectrumError {
     /// The motion cannot be integrated.
-    #[error(transparent)]
     Integration(#[from] IntegrationError),
     /// The motion escaped or touched before the record was complete.
-    #[error("the motion ends within the record of the spectrum")]
     Ended {
         /// How, its time counted from the start of the record.
         outcome: Outcome,
     },
     /// The samples have no spectrum.
-    #[error(transparent)]
     Spectrum(#[from] SpectrumError),
+}
+
+impl Say for VoltageSpectrumError {
+    fn say(&self) -> Sentence {
+        match self {
+            Self::Integration(error) => error.say(),
+            Self::Ended { .. } => said("the motion ends within the record of the spectrum", &[]),
+            // Asked for by ourselves, always with what it takes.
+            Self::Spectrum(error) => Sentence::Verbatim(error.to_string()),
+        }
+    }
 }

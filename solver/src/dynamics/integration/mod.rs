@@ -31,7 +31,7 @@ pub(super) mod variation;
 
 pub use collocation::{Collocation, Settings};
 pub use ongoing::{Ongoing, Reach};
-pub use outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
+pub use outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome, RunError};
 pub use rule::NODES;
 pub use step::Step;
 pub use trajectory::Trajectory;

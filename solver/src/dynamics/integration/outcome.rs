@@ -3,6 +3,9 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::model::ModelError;
+use crate::sentence::{Say, Sentence, said};
+
 /// Tip displacement, in beam lengths, beyond which a motion counts as escaped: ten times the beam's own length,
 /// far outside the validity of any of the force laws.
 pub const ESCAPE_DISPLACEMENT: f64 = 10.0;
@@ -37,9 +40,9 @@ impl Outcome {
 
 /// Why a run could not be carried out.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[error("{}", self.say())]
 pub enum IntegrationError {
     /// The initial state has the wrong length or holds something that is not a number.
-    #[error("initial must be {expected} finite numbers (q1..qN, dq1/dt..dqN/dt, v), got {got}")]
     InitialState {
         /// Required length 2N + 1.
         expected: usize,
@@ -47,9 +50,6 @@ pub enum IntegrationError {
         got: String,
     },
     /// The step fell below any useful size without an escape or a contact.
-    #[error(
-        "the step became too small at time {time}: the motion cannot be resolved to tolerance {tolerance}"
-    )]
     StepTooSmall {
         /// Dimensionless time.
         time: f64,
@@ -57,13 +57,48 @@ pub enum IntegrationError {
         tolerance: f64,
     },
     /// The motion is so much faster than the excitation that the run would hardly end.
-    #[error(
-        "the motion is too fast to follow: {steps} steps have reached time {time} only; start nearer to rest, reduce beta or use the exact force law"
-    )]
     TooManySteps {
         /// Dimensionless time reached.
         time: f64,
         /// Steps done.
         steps: u64,
     },
+}
+
+impl Say for IntegrationError {
+    fn say(&self) -> Sentence {
+        match self {
+            Self::InitialState { expected, got } => said(
+                "initial must be {expected} finite numbers (q1..qN, dq1/dt..dqN/dt, v), got {got}",
+                &[("expected", expected), ("got", got)],
+            ),
+            Self::StepTooSmall { time, tolerance } => said(
+                "the step became too small at time {time}: the motion cannot be resolved to tolerance {tolerance}",
+                &[("time", time), ("tolerance", tolerance)],
+            ),
+            Self::TooManySteps { time, steps } => said(
+                "the motion is too fast to follow: {steps} steps have reached time {time} only; start nearer to rest, reduce beta or use the exact force law",
+                &[("steps", steps), ("time", time)],
+            ),
+        }
+    }
+}
+
+/// Why a motion of numbers not yet checked could not be computed.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{}", self.say())]
+pub enum RunError {
+    /// A number describes no device.
+    Model(#[from] ModelError),
+    /// The motion cannot be integrated.
+    Integration(#[from] IntegrationError),
+}
+
+impl Say for RunError {
+    fn say(&self) -> Sentence {
+        match self {
+            Self::Model(error) => error.say(),
+            Self::Integration(error) => error.say(),
+        }
+    }
 }

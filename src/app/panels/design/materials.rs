@@ -5,7 +5,7 @@ use egui::{Grid, RichText, Ui};
 use super::safety;
 use crate::app::command::Command;
 use crate::app::panels::{Context, grid};
-use crate::app::text::{fill, marked, motion_in_words, reworded, tr};
+use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips_after};
@@ -14,7 +14,8 @@ use crate::model::limits::Standing;
 use crate::model::materials::Ceramic;
 use crate::questions::design::materials::{MaterialRow, with_ceramic};
 use crate::questions::materials::Fitted;
-use crate::scheduler::Table;
+use crate::scheduler::{Failure, Table};
+use crate::sentence::Sentence;
 use crate::theory::Resonance;
 
 /// Draws the page.
@@ -64,7 +65,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     let present = context.view.scenario.base().ceramic;
     let Some(study) = context.studies.lanes.study::<Table<Fitted>>() else { return };
-    let rows: Vec<Option<Result<&MaterialRow, &str>>> = study.found().collect();
+    let rows: Vec<Option<Result<&MaterialRow, &Failure>>> = study.found().collect();
     ui.spacing_mut().interact_size.y = 24.0;
     Grid::new("ceramics").num_columns(HEADINGS.len()).spacing([18.0, 4.0]).show(ui, |ui| {
         for text in HEADINGS {
@@ -85,8 +86,8 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
             ui.label(format!("{bound}{} %", significant(100.0 * material.dissipation_factor, 2)));
             match row {
                 Some(Ok(row)) => found(context, ui, row),
-                Some(Err(message)) => {
-                    ui.label(RichText::new(reworded(message)).small().color(tokens.warning));
+                Some(Err(failure)) => {
+                    ui.label(RichText::new(say(failure)).small().color(tokens.warning));
                 }
                 None => {
                     ui.label(RichText::new(tr("computing")).small().color(tokens.text_weak));
@@ -123,13 +124,13 @@ fn found(context: &Context<'_>, ui: &mut Ui, row: &MaterialRow) {
         ));
     }
     let Some(harvest) = &row.reached.harvest else {
-        ui.label(RichText::new(motion_in_words(row.reached.motion)).color(tokens.danger));
+        ui.label(RichText::new(say(&row.reached.motion)).color(tokens.danger));
         ui.label("–");
         return;
     };
     ui.label(RichText::new(with_unit(harvest.power, "W")).color(tokens.text_strong)).on_hover_text(format!(
         "{}, {}",
-        motion_in_words(row.reached.motion),
+        say(&row.reached.motion),
         with_unit(harvest.v_rms, tr("V rms"))
     ));
     // The ceramic's own voltage, unless the user chose one.
@@ -155,7 +156,7 @@ fn found(context: &Context<'_>, ui: &mut Ui, row: &MaterialRow) {
 fn adopt(context: &mut Context<'_>, ceramic: Ceramic) {
     let mode = context.view.design.mode.clamp(1, context.view.scenario.model.modes);
     let taken = with_ceramic(&context.view.scenario, ceramic, mode);
-    context.commands.push(Command::Adopt(taken.map(Box::new).map_err(|error| error.to_string())));
+    context.commands.push(Command::Adopt(taken.map(Box::new).map_err(Sentence::from)));
 }
 
 fn notes(context: &Context<'_>, ui: &mut Ui) {

@@ -9,7 +9,7 @@ use self::digits::in_digits;
 use crate::app::bench::questions;
 use crate::app::command::Command;
 use crate::app::panels::{Context, grid};
-use crate::app::text::{fill, reworded, tr};
+use crate::app::text::{fill, say, tr};
 use crate::app::theme;
 use crate::app::view::design::Aim;
 use crate::app::widgets::number::significant;
@@ -17,6 +17,7 @@ use crate::app::widgets::{Card, chips};
 use crate::questions::design::find::Objective;
 use crate::questions::find::{Candidate, FindStudy};
 use crate::scheduler::Study as _;
+use crate::sentence::Sentence;
 
 /// The cards beside the map.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
@@ -51,7 +52,7 @@ fn search(context: &mut Context<'_>, ui: &mut Ui) {
         context.commands.push(Command::Find(true));
     }
     if let Some(reason) = &context.bench.refusal {
-        ui.add(egui::Label::new(small(reworded(reason) + ".").color(tokens.danger)).wrap());
+        ui.add(egui::Label::new(small(say(reason) + ".").color(tokens.danger)).wrap());
     }
     let Some(study) = found else {
         let text = tr(
@@ -70,7 +71,7 @@ fn search(context: &mut Context<'_>, ui: &mut Ui) {
         });
     }
     if let Some(why) = study.failure() {
-        ui.add(egui::Label::new(small(why.to_owned()).color(tokens.danger)).wrap());
+        ui.add(egui::Label::new(small(say(why)).color(tokens.danger)).wrap());
     }
     let Some(best) = study.best() else { return };
     result(context, ui, study, best);
@@ -121,7 +122,7 @@ fn result(context: &mut Context<'_>, ui: &mut Ui, study: &FindStudy, best: &Cand
     }
     ui.horizontal(|ui| {
         if ui.button(tr("Use it")).clicked() {
-            let taken = study.scenario(best).map(Box::new).map_err(|error| error.to_string());
+            let taken = study.scenario(best).map(Box::new).map_err(Sentence::from);
             context.commands.push(Command::Adopt(taken));
         }
         if study.finished() && ui.button(tr("Close")).clicked() {

@@ -6,7 +6,7 @@ use super::safety::{self, Safety};
 use crate::app::bench;
 use crate::app::panels::Context;
 use crate::app::panels::verdict::in_a_line;
-use crate::app::text::{fill, motion_in_words, reworded, tr};
+use crate::app::text::{fill, say, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::{Card, Tile, tiles};
@@ -31,7 +31,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Some((Err(message), current)) => {
             let tokens = theme::tokens(ui);
             let colour = if current { tokens.danger } else { tokens.text_weak };
-            ui.add(egui::Label::new(RichText::new(reworded(message) + ".").color(colour)).wrap());
+            ui.add(egui::Label::new(RichText::new(say(message) + ".").color(colour)).wrap());
         }
         Some((Ok(operating), current)) => {
             if !current {
@@ -148,7 +148,7 @@ fn safe(context: &Context<'_>, ui: &Ui, harvest: &Harvest) -> (&'static str, egu
 /// Class, gains, losses, and what to know.
 fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
     let tokens = theme::tokens(ui);
-    let mut facts = vec![motion_in_words(operating.reached.motion)];
+    let mut facts = vec![say(&operating.reached.motion)];
     if let Some(gain) = operating.reached_gain {
         let linear = with_unit(operating.linear.power, "W");
         facts.push(fill(

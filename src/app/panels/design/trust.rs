@@ -6,7 +6,7 @@ use super::beside::LEAST_HEIGHT;
 use crate::app::panels::magnet_force::NAMES;
 use crate::app::panels::spec::Place;
 use crate::app::panels::{Context, grid, list, plots};
-use crate::app::text::{fill, motion_in_words, reworded, tr};
+use crate::app::text::{fill, say, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, chips};
@@ -16,7 +16,7 @@ use crate::questions::design::trust::{
     LAWS, LawError, MomentError, Quantity, TrustEntry, law_error, moment_errors,
 };
 use crate::questions::trust::Entry;
-use crate::scheduler::Table;
+use crate::scheduler::{Failure, Table};
 use crate::theory::Resonance;
 
 /// The model that stands for the truth.
@@ -219,7 +219,7 @@ fn choose(context: &mut Context<'_>, ui: &mut Ui) {
 fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     let Some(study) = context.studies.lanes.study::<Table<Entry>>() else { return };
-    let entries: Vec<Option<Result<&TrustEntry, &str>>> = study.found().collect();
+    let entries: Vec<Option<Result<&TrustEntry, &Failure>>> = study.found().collect();
     let value = |index: usize| entries.get(index).and_then(|entry| entry.as_ref()?.as_ref().ok()?.value);
     let truth = value(entries.len().saturating_sub(1));
     let quantity = context.view.design.quantity;
@@ -263,13 +263,13 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 /// An entry in digits, and what to say about it.
-fn in_a_cell(entry: Option<Result<&TrustEntry, &str>>, quantity: Quantity) -> (String, String) {
+fn in_a_cell(entry: Option<Result<&TrustEntry, &Failure>>, quantity: Quantity) -> (String, String) {
     let entry = match entry {
         None => return ("…".to_owned(), tr("computing").to_owned()),
-        Some(Err(message)) => return ("–".to_owned(), reworded(message)),
+        Some(Err(failure)) => return ("–".to_owned(), say(failure)),
         Some(Ok(entry)) => entry,
     };
-    let said = entry.motion.map_or(String::new(), motion_in_words);
+    let said = entry.motion.map_or(String::new(), |motion| say(&motion));
     let text = match (entry.value, quantity, entry.motion) {
         (Some(value), Quantity::Power, _) => with_unit(value, "W"),
         (Some(value), Quantity::Voltage, _) => with_unit(value, "V"),

@@ -8,7 +8,7 @@ use super::{adopt, choose_units, device_of};
 use crate::app::panels::facts::round;
 use crate::app::panels::frequency::resonance_marks;
 use crate::app::panels::{Context, facts};
-use crate::app::text::{fill, reworded, tr};
+use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{round_significant, short};
 use crate::app::widgets::{Mark, ParameterSlider, chips};
@@ -66,7 +66,7 @@ pub(in crate::app::panels) fn excitation(context: &mut Context<'_>, ui: &mut Ui)
     }
     if let Some(reason) = &context.bench.refusal {
         let colour = theme::tokens(ui).danger;
-        let text = fill("Not changed: {reason}.", &[("reason", &reworded(reason))]);
+        let text = fill("Not changed: {reason}.", &[("reason", reason)]);
         ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
     }
     ui.add_space(6.0);

@@ -5,6 +5,7 @@ use crate::app::command::Command;
 use crate::app::text::tr;
 use crate::model::materials::Ceramic;
 use crate::model::{Device, ElectricalScaling, Parameter, STANDARD_GRAVITY};
+use crate::sentence::Sentence;
 
 /// A steel beam of 60 mm with a ceramic patch and small neodymium magnets, shaken at 0.2 g near its first resonance
 /// into its best load there.
@@ -57,7 +58,7 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
         }
     });
     if let Some(taken) = taken {
-        context.commands.push(Command::Adopt(taken.map(Box::new).map_err(|error| error.to_string())));
+        context.commands.push(Command::Adopt(taken.map(Box::new).map_err(Sentence::from)));
     }
 }
 

@@ -1,25 +1,26 @@
 //! Why a device was refused, in the dimensions and units of the page.
 
-use crate::app::text::{fill, tr};
+use crate::app::text::tr;
 use crate::app::widgets::number::{short, significant};
 use crate::model::{Device, Dimension, ElectricalScaling, ModelError, Parameter};
+use crate::sentence::{Say as _, Sentence, said};
 
 /// The reason; for a dimensionless number out of its range, the dimension that decides it.
-pub(super) fn in_words(device: &Device, scaling: ElectricalScaling, error: &ModelError) -> String {
+pub(super) fn in_words(device: &Device, scaling: ElectricalScaling, error: &ModelError) -> Sentence {
     let told = match error {
         ModelError::OutOfRange { field, value, .. } => out_of_range(device, scaling, field, *value),
         ModelError::PullIn { smallest, .. } => Some(pull_in(device, *smallest)),
-        ModelError::GapClosed { sag, distance } => Some(fill(
+        ModelError::GapClosed { sag, distance } => Some(said(
             "under gravity the tip sags {sag} mm: the distance D = {distance} mm must be larger",
             &[("sag", &short(1e3 * sag)), ("distance", &short(1e3 * distance))],
         )),
         _ => None,
     };
-    told.unwrap_or_else(|| error.to_string())
+    told.unwrap_or_else(|| error.say())
 }
 
 /// What the dimension may be as long as the others stay: Eq. (8) solved at both ends of the number's range.
-fn out_of_range(device: &Device, scaling: ElectricalScaling, field: &str, value: f64) -> Option<String> {
+fn out_of_range(device: &Device, scaling: ElectricalScaling, field: &str, value: f64) -> Option<Sentence> {
     let parameter = Parameter::named(field)?;
     let dimension = Dimension::ALL.into_iter().find(|other| other.decided_by() == Some(parameter))?;
     let set = device.dimensionless(scaling).ok()?;
@@ -39,7 +40,7 @@ fn out_of_range(device: &Device, scaling: ElectricalScaling, field: &str, value:
     let number = format!("{field} = {}", short(value));
     let (least, most) = (first.min(last), first.max(last));
     Some(if most.is_finite() {
-        fill(
+        said(
             "{dimension} = {value} is out of range here: allowed are {least} to {most} ({number})",
             &[
                 ("dimension", &title.trim_end()),
@@ -50,7 +51,7 @@ fn out_of_range(device: &Device, scaling: ElectricalScaling, field: &str, value:
             ],
         )
     } else {
-        fill(
+        said(
             "{dimension} = {value} is out of range here: allowed are {least} and more ({number})",
             &[
                 ("dimension", &title.trim_end()),
@@ -63,9 +64,9 @@ fn out_of_range(device: &Device, scaling: ElectricalScaling, field: &str, value:
 }
 
 /// The smallest distance that the beam can hold against the magnets.
-fn pull_in(device: &Device, smallest: f64) -> String {
+fn pull_in(device: &Device, smallest: f64) -> Sentence {
     let least = smallest * device.beam_length + device.sag();
-    fill(
+    said(
         "the magnets attract so strongly that they pull the tip in: the distance D = {distance} mm must be larger than \
          {least} mm",
         &[
@@ -85,7 +86,7 @@ mod tests {
     fn refusal(device: &Device) -> String {
         let (mut scenario, scaling) = (Scenario::default(), ElectricalScaling::Consistent);
         let found = scenario.set_device(*device, scaling).and_then(|()| scenario.validate().map(|_| ()));
-        found.map_err(|error| in_words(device, scaling, &error)).err().unwrap_or_default()
+        found.map_or_else(|error| in_words(device, scaling, &error).to_string(), |()| String::new())
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::traced::{look, si};
 use crate::app::command::Command;
 use crate::app::live::{End, LiveAction, kick, settled};
 use crate::app::panels::Context;
-use crate::app::text::{fill, reworded, tr};
+use crate::app::text::{fill, tr};
 use crate::app::view::live::{LiveView, SPEEDS};
 use crate::app::widgets::number::short;
 use crate::app::widgets::{Card, ParameterSlider, chips, chips_after};
@@ -136,10 +136,8 @@ fn state(context: &mut Context<'_>, ui: &mut Ui) {
             let at = time(outcome.early_end().unwrap_or_default());
             fill("The tip escaped at t = {time}: this force law lets it go.", &[("time", &at)])
         }
-        (Some(End::Failed(reason)), _) => {
-            fill("The run cannot go on: {reason}.", &[("reason", &reworded(reason))])
-        }
-        (None, Some(reason)) => fill("Not taken over: {reason}.", &[("reason", &reworded(reason))]),
+        (Some(End::Failed(reason)), _) => fill("The run cannot go on: {reason}.", &[("reason", reason)]),
+        (None, Some(reason)) => fill("Not taken over: {reason}.", &[("reason", reason)]),
         (None, None) => return,
     };
     ui.add_space(6.0);

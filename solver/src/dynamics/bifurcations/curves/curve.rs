@@ -1,11 +1,10 @@
 //! Curves of bifurcations in the plane of two parameters: where one starts, its points, the special ones among them,
 //! and why it ends.
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::orbits::Instability;
+use crate::sentence::{Say, Sentence, in_english, said};
 
 /// A bifurcation to trace a curve from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
@@ -119,23 +118,26 @@ impl Criticality {
     }
 }
 
-impl fmt::Display for SpecialKind {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Cusp => "cusp",
-            Self::OneToOne => "1:1 resonance",
-            Self::OneToTwo => "1:2 resonance",
-            Self::OneToThree => "1:3 resonance",
-            Self::OneToFour => "1:4 resonance",
-            Self::FoldFlip => "fold-flip",
-            Self::FoldNeimarkSacker => "fold-Neimark-Sacker",
-            Self::FlipNeimarkSacker => "flip-Neimark-Sacker",
-            Self::DoubleNeimarkSacker => "double Neimark-Sacker",
-            Self::GeneralizedPeriodDoubling => "generalized period doubling",
-            Self::Chenciner => "Chenciner",
-        })
+impl Say for SpecialKind {
+    fn say(&self) -> Sentence {
+        let resonance = |ratio: &str| said("{ratio} resonance", &[("ratio", &ratio)]);
+        match self {
+            Self::Cusp => said("cusp", &[]),
+            Self::OneToOne => resonance("1:1"),
+            Self::OneToTwo => resonance("1:2"),
+            Self::OneToThree => resonance("1:3"),
+            Self::OneToFour => resonance("1:4"),
+            Self::FoldFlip => said("fold-flip", &[]),
+            Self::FoldNeimarkSacker => said("fold-Neimark-Sacker", &[]),
+            Self::FlipNeimarkSacker => said("flip-Neimark-Sacker", &[]),
+            Self::DoubleNeimarkSacker => said("double Neimark-Sacker", &[]),
+            Self::GeneralizedPeriodDoubling => said("generalized period doubling", &[]),
+            Self::Chenciner => said("Chenciner", &[]),
+        }
     }
 }
+
+in_english!(SpecialKind);
 
 /// A point of codimension two on a curve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
