@@ -17,7 +17,7 @@ use std::time::Instant;
 use by_hand::ByHand;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use harvester_lab::dynamics::attractors::motion::Undecided;
-use harvester_lab::dynamics::{ESCAPE_DISPLACEMENT, Motion, Verdict};
+use harvester_lab::dynamics::{ESCAPE_DISPLACEMENT, Inquiry, Motion, Verdict};
 use harvester_lab::model::{ForceLaw, ModelChoice, ParameterSet, ReducedSystem};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use truth::{Length, Run, Standing, Truth};
@@ -154,7 +154,7 @@ fn run(name: &str, count: usize, seed: u64, draw: fn(&mut fastrand::Rng) -> (Par
     let done = AtomicUsize::new(0);
     let tried = drawn.into_par_iter().map(|(set, model, system)| {
         let begun = Instant::now();
-        let verdict = Verdict::of(&system, &vec![0.0; system.dimension()], 600.0);
+        let verdict = Inquiry::new(&system, &vec![0.0; system.dimension()], 600.0).map(|found| found.verdict);
         let time = begun.elapsed().as_secs_f64();
         // A motion too fast to follow has no verdict.
         let worth = verdict.map_or(Worth::Undecided, |verdict| {

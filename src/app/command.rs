@@ -5,10 +5,11 @@ use super::lessons::course::Action;
 use super::live::LiveAction;
 use super::view::design::DesignView;
 use super::view::live::LiveView;
-use super::view::{Layer, MapWindow, Panel, SweepView, Tab};
+use super::view::{MapWindow, Panel, SweepView, Tab};
 use crate::app::text::Language;
 use crate::export::Format;
 use crate::model::Parameter;
+use crate::questions::chart::Quantity;
 use crate::scenario::Scenario;
 use crate::sentence::Sentence;
 
@@ -22,7 +23,7 @@ pub(super) enum Command {
     /// Look at another part of the stability map.
     LookAt(MapWindow),
     /// Chart something else.
-    Chart(Layer),
+    Chart(Quantity),
     /// Sweep something else.
     Sweep(SweepView),
     /// Trace curves in another plane.

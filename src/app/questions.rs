@@ -2,7 +2,7 @@
 
 use super::map::{self, Boundaries};
 use super::session::Session;
-use super::view::{Layer, SweepView, View};
+use super::view::{SweepView, View};
 use crate::dynamics::bifurcations::tongue::Window;
 use crate::model::{Parameter, ParameterSet, Shaking};
 use crate::questions::basin::Basin;
@@ -30,12 +30,7 @@ const LEAST_SPAN: f64 = 1e-3;
 pub(super) fn chart(view: &View, boundaries: &Boundaries) -> (Scenario, Chart) {
     let (low, high) = boundaries.range(view.map);
     let low = low.max(Parameter::Omega.range().0);
-    let quantity = match view.layer {
-        Layer::Multiplier => Quantity::Multiplier,
-        Layer::Motion => Quantity::Motion,
-        Layer::Voltage => Quantity::VRms,
-        Layer::Power => Quantity::Power,
-    };
+    let quantity = view.layer;
     let multipliers = quantity == Quantity::Multiplier;
     let (columns, rows) = if multipliers { CHART } else { MOTIONS };
     let omega = Span { from: low, to: high, count: columns };

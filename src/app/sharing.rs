@@ -125,8 +125,9 @@ mod tests {
     use crate::app::command::Command;
     use crate::app::history::Hand;
     use crate::app::rehearsal;
-    use crate::app::view::{Layer, MapWindow};
+    use crate::app::view::MapWindow;
     use crate::model::Parameter;
+    use crate::questions::chart::Quantity;
 
     fn app() -> App {
         rehearsal::app(&egui::Context::default(), None)
@@ -146,7 +147,7 @@ mod tests {
             Command::Show(Box::new(scenario)),
             Command::OpenTab(Tab::Sweep),
             Command::LookAt(MapWindow::Sum),
-            Command::Chart(Layer::Power),
+            Command::Chart(Quantity::Power),
             Command::OpenPlane([Parameter::D, Parameter::Beta]),
             Command::LoadFigure(4),
         ];

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::design::DesignView;
-pub use self::front::{Layer, MapWindow, Tab};
+pub use self::front::{MapWindow, Tab};
 use self::live::LiveView;
 pub use self::panel::Panel;
 pub(in crate::app) use self::panel::panels;
@@ -21,6 +21,7 @@ use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
 use crate::app::text::{Language, fill};
 use crate::model::{ModelError, Parameter};
+use crate::questions::chart::Quantity;
 use crate::questions::curves;
 use crate::questions::input::{self, FieldError};
 use crate::scenario::{Scenario, counted};
@@ -52,7 +53,7 @@ pub struct View {
     /// Whether the beam moves.
     pub beam_moves: bool,
     /// What the chart shows.
-    pub layer: Layer,
+    pub layer: Quantity,
     /// What is swept.
     pub sweep: SweepView,
     /// The two parameters of the plane of bifurcation curves.
@@ -81,7 +82,7 @@ impl Default for View {
             figure: 9,
             enlarged: None,
             beam_moves: true,
-            layer: Layer::default(),
+            layer: Quantity::default(),
             sweep: SweepView::default(),
             plane: [Parameter::Omega, Parameter::Beta],
             design: DesignView::default(),

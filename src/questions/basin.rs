@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::checks::{check_ends, class, count, system};
 use super::error::{RequestError, failed};
-use super::motion_chart::{MotionChart, MotionQuestion, SIZES};
-use super::motions::Coordinate;
+use super::motion_chart::MotionChart;
+use super::motions::{Coordinate, MotionPlane, SIZES};
 use super::question::Question;
 use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::attractors::signature::{Recogniser, Signature};
@@ -106,7 +106,7 @@ impl AttractorAnswer {
 const COUNT: usize = 41;
 
 impl Basin {
-    fn plane(&self, scenario: Scenario, system: &ReducedSystem) -> Result<MotionQuestion, RequestError> {
+    fn plane(&self, scenario: Scenario, system: &ReducedSystem) -> Result<MotionPlane, RequestError> {
         let both = self.count.unwrap_or(COUNT);
         count("count", both, SIZES)?;
         let modes = scenario.model.modes;
@@ -118,7 +118,7 @@ impl Basin {
         };
         let (x, columns) = given("x", &self.x, 0, gap)?;
         let (y, rows) = given("y", &self.y, modes, omega * gap)?;
-        Ok(MotionQuestion { scenario, x, y, size: (columns, rows) })
+        Ok(MotionPlane { scenario, x, y, size: (columns, rows) })
     }
 }
 

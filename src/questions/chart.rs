@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::checks::{self, Span, class};
 use super::error::{RequestError, failed};
-use super::motion_chart::{MotionChart, MotionQuestion, SIZES};
-use super::motions::Coordinate;
+use super::motion_chart::MotionChart;
+use super::motions::{Coordinate, MotionPlane, SIZES};
 use super::multiplier_chart::{self, MultiplierChart};
 use super::question::Question;
 use crate::dynamics::attractors::motion::Cell;
@@ -27,14 +27,16 @@ pub struct Chart {
 }
 
 /// What a chart shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// The largest Floquet multiplier of the forced motion.
+    #[default]
     Multiplier,
     /// The class of the motion reached.
     Motion,
-    /// Root mean square of its voltage (V).
+    /// Root mean square of its voltage (V); `voltage` in old links.
+    #[serde(alias = "voltage")]
     VRms,
     /// Its mean electrical power kappa v^2 (dimensionless).
     Power,
@@ -76,8 +78,8 @@ impl Chart {
     }
 
     /// The plane of the motions reached.
-    pub fn plane(&self, scenario: Scenario) -> MotionQuestion {
-        MotionQuestion {
+    pub fn plane(&self, scenario: Scenario) -> MotionPlane {
+        MotionPlane {
             scenario,
             x: (Coordinate::Parameter(Parameter::Omega), self.omega.range()),
             y: (Coordinate::Parameter(Parameter::Beta), self.beta.range()),

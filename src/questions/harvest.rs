@@ -485,10 +485,12 @@ impl HarvestStudy {
             return None;
         }
         self.starts_handed = end;
+        let (low, high) = (self.plant.beta_at(self.window.0), self.plant.beta_at(self.window.1));
         let plane = MotionPlane {
             scenario: Scenario { initial: None, ..self.plant.scenario.clone() },
-            x: Coordinate::Parameter(Parameter::Omega),
-            y: Coordinate::Parameter(Parameter::Beta),
+            x: (Coordinate::Parameter(Parameter::Omega), self.window),
+            y: (Coordinate::Parameter(Parameter::Beta), (low, high)),
+            size: (self.starts.len(), 1),
         };
         let places =
             (begin..end).map(|index| [self.omega(index), self.plant.beta_at(self.omega(index))]).collect();

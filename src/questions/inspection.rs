@@ -1,7 +1,9 @@
 //! Everything about the motion of one scenario that takes longer than a frame: the verdict, and what it rests on in a
 //! form that can be drawn.
 
+use crate::dynamics::attractors::verdict::VerdictError;
 use crate::dynamics::{Inquiry, Orbit, Verdict};
+use crate::model::ReducedSystem;
 use crate::scenario::Scenario;
 use crate::scheduler::{Failure, Piece};
 
@@ -62,17 +64,27 @@ impl Piece for Inspect {
 /// What is out of range, or why there is no verdict.
 pub fn inspect(scenario: &Scenario) -> Result<Inspection, Failure> {
     let (system, initial) = scenario.validate()?;
-    let Inquiry { verdict, reached, spectrum, forced } = Inquiry::new(&system, &initial, scenario.t_end)?;
-    let highest = verdict.peaks.iter().map(|peak| peak.omega).fold(system.parameters.omega, f64::max);
-    let spectrum = spectrum.map_or_else(Vec::new, |found| {
-        drawn(&found.spectrum.amplitudes, found.spectrum.spacing, BEYOND_PEAKS * highest)
-    });
-    Ok(Inspection {
-        forced: forced.and_then(|forced| forced.orbit).as_ref().map(Multipliers::from),
-        reached: reached.orbit.as_ref().map(Multipliers::from),
-        spectrum,
-        verdict,
-    })
+    Ok(Inspection::of(&system, &initial, scenario.t_end)?)
+}
+
+impl Inspection {
+    /// Of the start of `system` in `initial` (length 2N + 1), shown until `t_end`.
+    ///
+    /// # Errors
+    /// [`VerdictError`].
+    pub(super) fn of(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Self, VerdictError> {
+        let Inquiry { verdict, reached, spectrum, forced } = Inquiry::new(system, initial, t_end)?;
+        let highest = verdict.peaks.iter().map(|peak| peak.omega).fold(system.parameters.omega, f64::max);
+        let spectrum = spectrum.map_or_else(Vec::new, |found| {
+            drawn(&found.spectrum.amplitudes, found.spectrum.spacing, BEYOND_PEAKS * highest)
+        });
+        Ok(Self {
+            forced: forced.and_then(|forced| forced.orbit).as_ref().map(Multipliers::from),
+            reached: reached.orbit.as_ref().map(Multipliers::from),
+            spectrum,
+            verdict,
+        })
+    }
 }
 
 /// The spectrum up to a frequency, the largest value of each stretch of bins.

@@ -1,68 +1,16 @@
 //! A chart of the motion reached, over any two numbers of the device, its excitation and its start.
 
-use super::motions::{Coordinate, MotionPlane, Motions, at_place};
+use super::motions::{MotionPlane, Motions};
 use crate::dynamics::attractors::motion::{Cell, Motion};
 use crate::dynamics::attractors::signature::Signature;
-use crate::model::{ModelError, Units};
-use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::{Mosaic, Place};
 use crate::scheduler::{Asked, Failure, Order, Study};
-use crate::spacing::between;
 
-/// Columns and rows a chart may have.
-pub const SIZES: (usize, usize) = (2, 512);
 /// Cells of a piece of work where most motions are periodic or end (1.5 ms each with two modes), and where most are
 /// tori or chaotic (15 to 25 ms): some 50 ms either way in the browser, little enough to drop when the question changes,
 /// long enough not to spend it on messages.
 const QUICK_PIECE: usize = 24;
 const SLOW_PIECE: usize = 3;
-
-/// What is charted.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MotionQuestion {
-    /// Device and start; of both, what the coordinates change plays no role.
-    pub scenario: Scenario,
-    /// What changes from column to column, with its value in the first and in the last one.
-    pub x: (Coordinate, (f64, f64)),
-    /// What changes from row to row, with its value in the first and in the last one.
-    pub y: (Coordinate, (f64, f64)),
-    /// Number of columns and rows.
-    pub size: (usize, usize),
-}
-
-impl MotionQuestion {
-    /// Checks ranges and size.
-    ///
-    /// # Errors
-    /// [`ModelError`] naming what is out of range.
-    pub fn validate(&self) -> Result<(), ModelError> {
-        self.scenario.validate()?;
-        let modes = self.scenario.model.modes;
-        for (coordinate, range) in [self.x, self.y] {
-            coordinate.check(modes, range)?;
-        }
-        if self.x.0 == self.y.0 {
-            return Err(ModelError::SameSides { field: self.x.0.name(modes) });
-        }
-        counted("columns", self.size.0, SIZES)?;
-        counted("rows", self.size.1, SIZES)
-    }
-
-    /// The two coordinates of a cell.
-    pub fn place(&self, (column, row): Place) -> [f64; 2] {
-        [between(self.x.1, column, self.size.0), between(self.y.1, row, self.size.1)]
-    }
-
-    /// The SI units at a place, for watts and millimetres; `None` where there is no device.
-    pub fn units(&self, place: Place) -> Option<Units> {
-        let scenario = at_place(&self.scenario, &[self.x.0, self.y.0], &self.place(place)).ok()?;
-        Some(scenario.units())
-    }
-
-    fn plane(&self) -> MotionPlane {
-        MotionPlane { scenario: self.scenario.clone(), x: self.x.0, y: self.y.0 }
-    }
-}
 
 /// A cell and the group it belongs to: neighbours of different groups are refined first.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +33,7 @@ impl Tile {
 /// A chart being computed from coarse to fine, first where classes differ.
 #[derive(Debug, Clone)]
 pub struct MotionChart {
-    question: MotionQuestion,
+    question: MotionPlane,
     tiles: Mosaic<Tile>,
     /// Cells of the next piece.
     piece: usize,
@@ -95,7 +43,7 @@ pub struct MotionChart {
 
 impl MotionChart {
     /// An empty chart; the question must be valid.
-    pub fn new(question: MotionQuestion) -> Self {
+    pub fn new(question: MotionPlane) -> Self {
         let (columns, rows) = question.size;
         let tiles = Mosaic::new(columns, rows);
         Self { tiles, question, piece: SLOW_PIECE, failure: None, version: 0 }
@@ -134,7 +82,7 @@ impl MotionChart {
         }
         let cells = self.tiles.hand_out(self.piece, Tile::differs);
         let places: Vec<[f64; 2]> = cells.iter().map(|cell| self.question.place(*cell)).collect();
-        (!places.is_empty()).then(|| (Motions { plane: self.question.plane(), places }, cells))
+        (!places.is_empty()).then(|| (Motions { plane: self.question.clone(), places }, cells))
     }
 
     /// Takes what was found in `places`; `group` puts each motion, known with its place, into a group.
@@ -166,7 +114,7 @@ fn is_slow(cell: &Cell) -> bool {
 }
 
 impl Asked for MotionChart {
-    type Question = MotionQuestion;
+    type Question = MotionPlane;
 
     fn asked(&self) -> &Self::Question {
         &self.question
@@ -193,11 +141,13 @@ mod tests {
     use super::*;
     use crate::dynamics::{Effort, reach};
     use crate::model::{Parameter, ParameterSet};
+    use crate::questions::motions::Coordinate;
+    use crate::scenario::Scenario;
     use crate::scheduler::complete;
 
-    fn question(size: (usize, usize)) -> MotionQuestion {
+    fn question(size: (usize, usize)) -> MotionPlane {
         let parameters = ParameterSet { alpha: 1e-4, ..Default::default() };
-        MotionQuestion {
+        MotionPlane {
             scenario: Scenario { parameters, ..Default::default() },
             x: (Coordinate::Parameter(Parameter::Omega), (7.9, 8.3)),
             y: (Coordinate::Parameter(Parameter::Beta), (1e-4, 4e-3)),
@@ -230,7 +180,7 @@ mod tests {
         let parameters = ParameterSet { c0: -0.5, d: 1.5, ..Default::default() };
         let scenario = Scenario { parameters, ..Default::default() };
         let (x, y) = (Coordinate::Parameter(Parameter::D), Coordinate::Start(0));
-        let question = MotionQuestion { scenario, x: (x, (0.05, 1.5)), y: (y, (0.0, 0.01)), size: (5, 2) };
+        let question = MotionPlane { scenario, x: (x, (0.05, 1.5)), y: (y, (0.0, 0.01)), size: (5, 2) };
         let mut chart = MotionChart::new(question);
         complete(&mut chart);
         assert!(chart.finished() && chart.failure().is_none());
@@ -244,11 +194,11 @@ mod tests {
         assert!(question((1, 16)).validate().is_err());
         assert!(question((16, 513)).validate().is_err());
         let side = question((16, 16)).x;
-        let same = MotionQuestion { y: side, ..question((16, 16)) }.validate();
+        let same = MotionPlane { y: side, ..question((16, 16)) }.validate();
         let message = "both sides of the chart are omega: they must differ";
         assert_eq!(same.map_err(|error| error.to_string()), Err(message.to_owned()));
         let start = (Coordinate::Start(5), (0.0, 1.0));
-        assert!(MotionQuestion { y: start, ..question((16, 16)) }.validate().is_err());
+        assert!(MotionPlane { y: start, ..question((16, 16)) }.validate().is_err());
     }
 
     #[test]

@@ -5,9 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::response::check_range;
 use crate::dynamics::attractors::signature::Signature;
 use crate::dynamics::{ESCAPE_DISPLACEMENT, Effort, IntegrationError, Settler, reach};
-use crate::model::{Dimension, ModelError, Parameter, ReducedSystem, state_dimension};
+use crate::model::{Dimension, ModelError, Parameter, ReducedSystem, Units, state_dimension};
 use crate::scenario::{Scenario, counted};
+use crate::scheduler::mosaic::Place;
 use crate::scheduler::{Failure, Piece};
+use crate::spacing::between;
 
 /// Largest modal velocity that a start may have (dimensionless): that of the fastest mode with the largest displacement.
 const MOST_VELOCITY: f64 = 1e4;
@@ -141,18 +143,51 @@ impl Piece for Motions {
     }
 }
 
-/// The plane of two coordinates through the numbers and the start of a scenario.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
+/// Columns and rows a chart may have.
+pub const SIZES: (usize, usize) = (2, 512);
+
+/// A plane of two coordinates through the numbers and the start of a scenario, as it is charted.
+#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct MotionPlane {
-    /// Everything that the coordinates do not change.
+    /// Device and start; of both, what the coordinates change plays no role.
     pub scenario: Scenario,
-    /// What the first number of a place is.
-    pub x: Coordinate,
-    /// What the second one is.
-    pub y: Coordinate,
+    /// What changes from column to column, with its value in the first and in the last one.
+    pub x: (Coordinate, (f64, f64)),
+    /// What changes from row to row, with its value in the first and in the last one.
+    pub y: (Coordinate, (f64, f64)),
+    /// Number of columns and rows.
+    pub size: (usize, usize),
 }
 
 impl MotionPlane {
+    /// Checks ranges and size.
+    ///
+    /// # Errors
+    /// [`ModelError`] naming what is out of range.
+    pub fn validate(&self) -> Result<(), ModelError> {
+        self.scenario.validate()?;
+        let modes = self.scenario.model.modes;
+        for (coordinate, range) in [self.x, self.y] {
+            coordinate.check(modes, range)?;
+        }
+        if self.x.0 == self.y.0 {
+            return Err(ModelError::SameSides { field: self.x.0.name(modes) });
+        }
+        counted("columns", self.size.0, SIZES)?;
+        counted("rows", self.size.1, SIZES)
+    }
+
+    /// The two coordinates of a cell.
+    pub fn place(&self, (column, row): Place) -> [f64; 2] {
+        [between(self.x.1, column, self.size.0), between(self.y.1, row, self.size.1)]
+    }
+
+    /// The SI units at a place, for watts and millimetres; `None` where there is no device.
+    pub fn units(&self, place: Place) -> Option<Units> {
+        let scenario = at_place(&self.scenario, &[self.x.0, self.y.0], &self.place(place)).ok()?;
+        Some(scenario.units())
+    }
+
     /// The motions reached at `places`; `None` where there is no device (the magnets leave no equilibrium, or buckle the
     /// beam) or where its motion cannot be integrated.
     ///
@@ -161,7 +196,7 @@ impl MotionPlane {
     pub fn motions(&self, places: &[[f64; 2]]) -> Result<Vec<Option<Signature>>, Failure> {
         let (system, start) = self.scenario.validate()?;
         // Where only the start changes, all share the periodic motions that are found.
-        let one_system = matches!((self.x, self.y), (Coordinate::Start(_), Coordinate::Start(_)));
+        let one_system = matches!((self.x.0, self.y.0), (Coordinate::Start(_), Coordinate::Start(_)));
         let mut settler = one_system.then(|| Settler::new(&system));
         places.iter().map(|place| self.motion(&system, &start, *place, settler.as_mut())).collect()
     }
@@ -175,7 +210,7 @@ impl MotionPlane {
     ) -> Result<Option<Signature>, Failure> {
         let mut set = self.scenario.parameters;
         let mut initial = start.to_vec();
-        let sides = [self.x, self.y];
+        let sides = [self.x.0, self.y.0];
         let in_si = sides.iter().any(|side| matches!(side, Coordinate::Dimension(_)));
         if in_si {
             // A sensible dimension may still make a number that the model does not take.
@@ -239,8 +274,9 @@ mod tests {
         let parameters = ParameterSet { c0: -0.5, d: 1.5, ..Default::default() };
         let plane = MotionPlane {
             scenario: Scenario { parameters, ..Default::default() },
-            x: Coordinate::Parameter(Parameter::D),
-            y: Coordinate::Start(0),
+            x: (Coordinate::Parameter(Parameter::D), (0.05, 1.5)),
+            y: (Coordinate::Start(0), (0.0, 0.01)),
+            size: (2, 2),
         };
         let found = plane.motions(&[[0.05, 0.0], [1.5, 0.0]]).expect("a valid plane");
         assert_eq!(found[0], None);

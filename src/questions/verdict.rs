@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::checks;
 use super::error::RequestError;
+use super::inspection::Inspection;
 use super::question::Question;
 use crate::dynamics::{self, Motion};
 use crate::scenario::Scenario;
@@ -32,7 +33,7 @@ impl Question for Verdict {
     fn answer(&self, scenario: Scenario, _: &Budget<'_>) -> Result<VerdictAnswer, RequestError> {
         let system = checks::system(&scenario)?;
         let initial = scenario.initial.unwrap_or_else(|| vec![0.0; system.dimension()]);
-        let verdict = dynamics::Verdict::of(&system, &initial, scenario.t_end)?;
+        let Inspection { verdict, .. } = Inspection::of(&system, &initial, scenario.t_end)?;
         Ok(VerdictAnswer { sentence: sentence(&verdict), verdict })
     }
 }

@@ -97,8 +97,9 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
         sent(&Motions {
             plane: MotionPlane {
                 scenario: scenario.clone(),
-                x: Coordinate::Start(0),
-                y: Coordinate::Parameter(Parameter::Beta),
+                x: (Coordinate::Start(0), (0.0, 0.1)),
+                y: (Coordinate::Parameter(Parameter::Beta), (0.0, 2e-3)),
+                size: (3, 5),
             },
             places: vec![[0.0, 1e-3]],
         }),

@@ -5,9 +5,11 @@
 use crate::{Fallible, OMEGA_1, OMEGA_2, TestResult};
 use harvester_lab::dynamics::attractors::evidence::{Evidence, EvidenceSource};
 use harvester_lab::dynamics::attractors::motion::Undecided;
-use harvester_lab::dynamics::attractors::verdict::{OtherStart, Warning, force_law_warning};
+use harvester_lab::dynamics::attractors::verdict::{OtherStart, VerdictError, Warning, force_law_warning};
 use harvester_lab::dynamics::integration::rk4::RungeKutta4;
-use harvester_lab::dynamics::{ForcedMotion, Instability, Motion, Orbit, Verdict, largest_multipliers};
+use harvester_lab::dynamics::{
+    ForcedMotion, Inquiry, Instability, Motion, Orbit, Verdict, largest_multipliers,
+};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 use harvester_lab::theory::LinearResponse;
 
@@ -20,6 +22,10 @@ fn system(alpha: f64, beta: f64, omega: f64, law: ForceLaw) -> Fallible<ReducedS
 
 fn strong(omega: f64) -> Fallible<ReducedSystem> {
     system(1e-4, 1e-2, omega, ForceLaw::Quadratic)
+}
+
+fn verdict_on(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Verdict, VerdictError> {
+    Ok(Inquiry::new(system, initial, t_end)?.verdict)
 }
 
 fn sources(verdict: &Verdict) -> Vec<EvidenceSource> {
@@ -46,7 +52,7 @@ fn settled_voltage(system: &ReducedSystem) -> Fallible<f64> {
 
 #[test]
 fn figure_3_is_the_stable_forced_motion() -> TestResult {
-    let verdict = Verdict::of(&system(1e-3, 1e-3, 25.0, ForceLaw::Quadratic)?, &[0.0; 5], 600.0)?;
+    let verdict = verdict_on(&system(1e-3, 1e-3, 25.0, ForceLaw::Quadratic)?, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, PERIOD_1);
     // The run ends as soon as it is in the motion's reach, while its points still settle.
     assert_eq!(
@@ -67,7 +73,7 @@ fn figure_3_is_the_stable_forced_motion() -> TestResult {
 fn slow_growth_beyond_a_boundary_is_not_chaos() -> TestResult {
     for (alpha, beta) in [(1e-4, 5e-4), (1e-4, 6e-4), (1e-3, 8e-4)] {
         let system = system(alpha, beta, 8.1569, ForceLaw::Quadratic)?;
-        let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+        let verdict = verdict_on(&system, &[0.0; 5], 600.0)?;
         assert_eq!(verdict.motion, Motion::Periodic { periods: 2 }, "alpha {alpha}, beta {beta}");
         let forced = verdict.forced.ok_or("forced")?;
         assert_eq!(forced.instability, Some(Instability::PeriodDoubling));
@@ -81,7 +87,7 @@ fn slow_growth_beyond_a_boundary_is_not_chaos() -> TestResult {
 #[test]
 fn figure_4_is_a_torus_and_says_what_coexists() -> TestResult {
     let system = strong(OMEGA_1 + OMEGA_2)?;
-    let verdict = Verdict::of(&system, &[0.0; 5], 605.0)?;
+    let verdict = verdict_on(&system, &[0.0; 5], 605.0)?;
     assert_eq!(verdict.motion, Motion::Quasiperiodic);
     assert_eq!(
         sources(&verdict),
@@ -104,7 +110,7 @@ fn figure_4_is_a_torus_and_says_what_coexists() -> TestResult {
     // Started on the forced motion, it is the torus from rest that coexists.
     let orbit = Orbit::find(&system, None, 1)?;
     assert!((beside.v_rms / orbit.measures.v_rms - 1.0).abs() < 1e-9);
-    let verdict = Verdict::of(&system, &orbit.state, 605.0)?;
+    let verdict = verdict_on(&system, &orbit.state, 605.0)?;
     assert_eq!(verdict.motion, PERIOD_1);
     let [beside] = verdict.coexists[..] else { return Err("one motion coexists".into()) };
     assert_eq!((beside.start, beside.motion), (OtherStart::Rest, Motion::Quasiperiodic));
@@ -115,7 +121,7 @@ fn figure_4_is_a_torus_and_says_what_coexists() -> TestResult {
 fn the_peak_of_a_torus_is_that_of_a_long_run_by_runge_kutta() -> TestResult {
     const STEPS: usize = 250;
     let system = strong(OMEGA_1 + OMEGA_2)?;
-    let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+    let verdict = verdict_on(&system, &[0.0; 5], 600.0)?;
     let mut run = RungeKutta4::new(&system, &[0.0; 5], STEPS as u32)?;
     let mut peak = 0.0_f64;
     for step in 0..20_000 * STEPS {
@@ -147,7 +153,7 @@ fn a_slow_transient_ends_in_the_linear_response_and_hangs_on_no_rounding() -> Te
         theta: 2.456704586417608e-5,
     };
     let system = ReducedSystem::new(Parameters::new(set)?, 2, ForceLaw::Exact)?;
-    let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+    let verdict = verdict_on(&system, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, PERIOD_1);
     let linear = LinearResponse::new(&system)?.voltage.norm() / 2.0_f64.sqrt();
     assert!(
@@ -167,7 +173,7 @@ fn a_nearly_conservative_device_whose_transient_outlasts_the_effort_is_undecided
     // A stable motion of period 3 is there, but the run is 3 % away from it for a million periods.
     let set = ParameterSet { alpha: 1e-4, beta: 0.01239, omega: 12.9689, kappa: 1e-12, ..Default::default() };
     let system = ReducedSystem::new(Parameters::new(set)?, 1, ForceLaw::Exact)?;
-    let verdict = Verdict::of(&system, &[0.0; 3], 600.0)?;
+    let verdict = verdict_on(&system, &[0.0; 3], 600.0)?;
     assert_eq!(verdict.motion, Motion::Undecided { why: Undecided::TransientNotGone });
     let longer = |warning: &Warning| matches!(warning, Warning::WouldTake { time } if *time > 1e5);
     assert!(verdict.warnings.iter().any(longer), "{:?}", verdict.warnings);
@@ -191,7 +197,7 @@ fn chaos_of_forty_thousand_periods_is_not_named_where_a_torus_attracts() -> Test
         theta: 1.344031667651489e-5,
     };
     let system = ReducedSystem::new(Parameters::new(set)?, 2, ForceLaw::Exact)?;
-    let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+    let verdict = verdict_on(&system, &[0.0; 5], 600.0)?;
     assert_ne!(verdict.motion, Motion::Chaotic);
     let torus = |motion: Motion, v_rms: Option<f64>| {
         motion == Motion::Quasiperiodic && v_rms.is_some_and(|v_rms| (v_rms - 2.948).abs() < 0.01)
@@ -204,7 +210,7 @@ fn chaos_of_forty_thousand_periods_is_not_named_where_a_torus_attracts() -> Test
 #[test]
 fn beside_other_motions_the_start_at_rest_leads_where_runge_kutta_goes() -> TestResult {
     let system = system(1e-4, 0.02109, 8.15737, ForceLaw::Taylor(5))?;
-    let verdict = Verdict::of(&system, &[0.0; 5], 600.0)?;
+    let verdict = verdict_on(&system, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, Motion::Periodic { periods: 2 });
     let expected = settled_voltage(&system)?;
     assert!(verdict.v_rms.is_some_and(|v_rms| (v_rms / expected - 1.0).abs() < 1e-4), "{:?}", verdict.v_rms);
@@ -213,7 +219,7 @@ fn beside_other_motions_the_start_at_rest_leads_where_runge_kutta_goes() -> Test
 
 #[test]
 fn figure_9_has_period_2_where_the_forced_motion_has_doubled() -> TestResult {
-    let verdict = Verdict::of(&strong(2.0 * OMEGA_1)?, &[0.0; 5], 600.0)?;
+    let verdict = verdict_on(&strong(2.0 * OMEGA_1)?, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, Motion::Periodic { periods: 2 });
     // The run ends as soon as it is in the motion's reach, while its points still settle.
     assert_eq!(
@@ -244,14 +250,14 @@ fn figure_9_has_period_2_where_the_forced_motion_has_doubled() -> TestResult {
 
 #[test]
 fn figure_12_escapes_beside_a_stable_forced_motion() -> TestResult {
-    let verdict = Verdict::of(&strong(2.0 * OMEGA_2)?, &[0.0; 5], 600.0)?;
+    let verdict = verdict_on(&strong(2.0 * OMEGA_2)?, &[0.0; 5], 600.0)?;
     assert!(matches!(verdict.motion, Motion::Escape { time } if (time - 1.14).abs() < 0.01));
     assert_eq!(sources(&verdict), [EvidenceSource::Run]);
     assert_eq!((verdict.v_rms, verdict.exponent, verdict.tip_over_gap), (None, None, None));
     assert!(verdict.forced.is_some_and(|forced| (forced.multiplier.modulus - 0.998852).abs() < 1e-6));
     assert_eq!(verdict.coexists.len(), 1);
     assert_eq!(verdict.warnings, [Warning::TruncatedBarrier]);
-    let exact = Verdict::of(&system(1e-4, 1e-2, 2.0 * OMEGA_2, ForceLaw::Exact)?, &[0.0; 5], 600.0)?;
+    let exact = verdict_on(&system(1e-4, 1e-2, 2.0 * OMEGA_2, ForceLaw::Exact)?, &[0.0; 5], 600.0)?;
     assert!(matches!(exact.motion, Motion::Periodic { .. }), "{}", exact.motion);
     assert!(exact.tip_over_gap.is_some_and(|(low, _)| low > -1.0));
     Ok(())
@@ -259,7 +265,7 @@ fn figure_12_escapes_beside_a_stable_forced_motion() -> TestResult {
 
 #[test]
 fn chaos_rests_on_its_exponent_and_its_spectrum() -> TestResult {
-    let verdict = Verdict::of(&system(1e-4, 0.05, 11.0, ForceLaw::Exact)?, &[0.0; 5], 600.0)?;
+    let verdict = verdict_on(&system(1e-4, 0.05, 11.0, ForceLaw::Exact)?, &[0.0; 5], 600.0)?;
     assert_eq!(verdict.motion, Motion::Chaotic);
     assert_eq!(
         sources(&verdict),
@@ -276,7 +282,7 @@ fn chaos_rests_on_its_exponent_and_its_spectrum() -> TestResult {
 
 #[test]
 fn a_verdict_is_written_as_json() -> TestResult {
-    let text = serde_json::to_string(&Verdict::of(&strong(2.0 * OMEGA_1)?, &[0.0; 5], 300.0)?)?;
+    let text = serde_json::to_string(&verdict_on(&strong(2.0 * OMEGA_1)?, &[0.0; 5], 300.0)?)?;
     assert!(text.contains(r#""motion":{"kind":"periodic","periods":2}"#), "{text}");
     Ok(())
 }

@@ -4,7 +4,8 @@ use crate::app::history::Hand;
 use crate::app::map::{self, Boundaries};
 use crate::app::rehearsal;
 use crate::app::session::Session;
-use crate::app::view;
+
+use crate::questions::chart::Quantity;
 use crate::questions::solve;
 
 /// The page of a link, everything computed, and drawn once.
@@ -145,7 +146,7 @@ fn the_chart_in_view_is_asked_for() {
     let structure = map::structure(&view.scenario);
     let mut session = Session::default();
     session.boundaries = Some(Boundaries::new(structure, &system));
-    for (layer, quantity) in [(view::Layer::Multiplier, "multiplier"), (view::Layer::Voltage, "v_rms")] {
+    for (layer, quantity) in [(Quantity::Multiplier, "multiplier"), (Quantity::VRms, "v_rms")] {
         let request = request(&View { layer, ..view.clone() }, &session);
         let asked: serde_json::Value = serde_json::from_str(&request).expect("JSON");
         assert_eq!((asked["task"].as_str(), asked["quantity"].as_str()), (Some("chart"), Some(quantity)));

@@ -11,6 +11,7 @@ use crate::app::view::design::Side;
 use crate::app::view::{MapWindow, Panel, Tab};
 use crate::model::materials::Ceramic;
 use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Parameter, ParameterSet};
+use crate::questions::chart::Quantity;
 use crate::scenario::{ModelChoice, VERSION};
 
 proptest! {
@@ -136,6 +137,8 @@ fn old_links_keep_their_meaning() {
     expected.scenario.t_end = 605.0;
     (expected.tab, expected.map, expected.figure) = (Tab::Paper, MapWindow::Sum, 4);
     assert_eq!(read(link, &View::default()), (expected, Vec::new()));
+    let (view, problems) = read("#v=1&tab=stability&layer=voltage", &View::default());
+    assert_eq!((view.layer, problems), (Quantity::VRms, Vec::new()));
 }
 
 fn reasons(link: &str) -> (View, Vec<String>) {

@@ -12,7 +12,7 @@ use crate::app::map::{Boundaries, ceiling};
 use crate::app::questions;
 use crate::app::text::{marked, say, tr};
 use crate::app::theme::{self, Tokens};
-use crate::app::view::{Layer, Tab};
+use crate::app::view::Tab;
 use crate::app::widgets::number::{self, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{
@@ -35,7 +35,7 @@ pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Stability), |_| tr("Sta
 fn hint(context: &Context<'_>) -> String {
     let usual = tr("drag or click to move");
     match context.view.layer {
-        Layer::Multiplier => context.computing::<MultiplierChart>(usual),
+        Quantity::Multiplier => context.computing::<MultiplierChart>(usual),
         _ => context.computing::<MotionChart>(usual),
     }
 }
@@ -63,10 +63,10 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         stability_map::choose_window(context, ui);
         ui.add_space(6.0);
         let layers = [
-            (Layer::Multiplier, tr("forced motion")),
-            (Layer::Motion, tr("motion reached")),
-            (Layer::Voltage, tr("voltage")),
-            (Layer::Power, tr("power")),
+            (Quantity::Multiplier, tr("forced motion")),
+            (Quantity::Motion, tr("motion reached")),
+            (Quantity::VRms, tr("voltage")),
+            (Quantity::Power, tr("power")),
         ];
         chips(ui, tr("Chart"), &mut layer, &layers);
     });
@@ -75,11 +75,11 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     }
     let tokens = theme::tokens(ui);
     match context.view.layer {
-        Layer::Multiplier => multiplier_legend(ui, tokens),
-        Layer::Motion => motion_legend(ui, tokens),
-        layer @ (Layer::Voltage | Layer::Power) => {
+        Quantity::Multiplier => multiplier_legend(ui, tokens),
+        Quantity::Motion => motion_legend(ui, tokens),
+        layer @ (Quantity::VRms | Quantity::Power) => {
             let top = context.studies.lanes.study::<MotionChart>().map_or(0.0, |chart| highest(chart, layer));
-            let (top, unit) = if layer == Layer::Voltage {
+            let (top, unit) = if layer == Quantity::VRms {
                 (top, tr("V rms"))
             } else {
                 (microwatts(&context.view.scenario) * top, "µW")
@@ -120,15 +120,15 @@ fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
 }
 
 /// The largest value of a chart, in the unit of its cells.
-fn highest(chart: &MotionChart, layer: Layer) -> f64 {
+fn highest(chart: &MotionChart, layer: Quantity) -> f64 {
     let (columns, rows) = chart.asked().size;
     let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
     let known = cells.filter_map(|(column, row)| chart.cell(column, row).flatten());
     known.map(|cell| value(&cell, layer)).fold(0.0, f64::max)
 }
 
-fn value(cell: &Cell, layer: Layer) -> f64 {
-    if layer == Layer::Power { cell.power } else { cell.v_rms }
+fn value(cell: &Cell, layer: Quantity) -> f64 {
+    if layer == Quantity::Power { cell.power } else { cell.v_rms }
 }
 
 /// Cells of one pixel, or such that can be hatched.
@@ -147,12 +147,12 @@ struct Picture {
 }
 
 /// The picture of the layer in view.
-fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
+fn picture(context: &Context<'_>, ui: &Ui, layer: Quantity) -> Option<Picture> {
     let tokens = theme::tokens(ui);
     let revision = |version: u64, generation: u64| {
         version ^ (generation << 32) ^ ((layer as u64) << 60) ^ (tokens.number() << 62)
     };
-    if layer == Layer::Multiplier {
+    if layer == Quantity::Multiplier {
         let chart = context.studies.lanes.study::<MultiplierChart>()?;
         let (_, omega, beta) = chart.asked();
         let revision = revision(chart.version(), context.studies.lanes.generation::<MultiplierChart>());
@@ -167,7 +167,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
     let top = highest(chart, layer).max(f64::MIN_POSITIVE);
     let colour = |cell: Cell| -> Color32 {
         let ended = matches!(cell.motion, Motion::Escape { .. } | Motion::Contact { .. });
-        if layer == Layer::Motion || ended {
+        if layer == Quantity::Motion || ended {
             colours::motion(cell.motion, tokens)
         } else {
             colours::sequential(value(&cell, layer) / top)
@@ -191,7 +191,7 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Layer) -> Option<Picture> {
 /// Notes the values behind the picture for files.
 fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f64); 2]) {
     let layer = context.view.layer;
-    if layer == Layer::Multiplier {
+    if layer == Quantity::Multiplier {
         // Before that, columns that are not known look like their neighbours.
         let found = context.studies.lanes.study::<MultiplierChart>().filter(|chart| chart.finished());
         let Some(chart) = found else { return };
@@ -210,14 +210,14 @@ fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f6
     let value = |column, row| {
         let cell = chart.cell(column, row)??;
         Some(match layer {
-            Layer::Voltage => number::exact(cell.v_rms),
-            Layer::Power => number::exact(factor * cell.power),
+            Quantity::VRms => number::exact(cell.v_rms),
+            Quantity::Power => number::exact(factor * cell.power),
             _ => say(&cell.motion),
         })
     };
     let name = match layer {
-        Layer::Voltage => tr("voltage of the motion reached, rms [V]"),
-        Layer::Power => tr("power of the motion reached [µW]"),
+        Quantity::VRms => tr("voltage of the motion reached, rms [V]"),
+        Quantity::Power => tr("power of the motion reached [µW]"),
         _ => tr("motion reached"),
     };
     recorder::cells(plot, name, chart.asked().size, ranges, &value);

@@ -1,4 +1,4 @@
-//! What is in front: the tab, the part of the stability map, what the chart shows.
+//! What is in front: the tab, and the part of the stability map.
 
 use serde::{Deserialize, Serialize};
 
@@ -73,19 +73,4 @@ impl MapWindow {
             Resonance::Second => Self::Second,
         }
     }
-}
-
-/// What the chart over (omega, beta) shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Layer {
-    /// Largest multiplier of the forced motion.
-    #[default]
-    Multiplier,
-    /// The motion reached from the scenario's start.
-    Motion,
-    /// Its voltage.
-    Voltage,
-    /// Its power.
-    Power,
 }

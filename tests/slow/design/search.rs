@@ -7,8 +7,8 @@ use harvester_lab::questions::design::find::{Evaluation, FindQuestion, Objective
 use harvester_lab::questions::design::{Plant, operating};
 use harvester_lab::questions::find::{Evaluate, FindStudy, NEIGHBOURS, ROUNDS};
 use harvester_lab::questions::map::DesignMap;
-use harvester_lab::questions::motion_chart::{MotionChart, MotionQuestion};
-use harvester_lab::questions::motions::{Coordinate, at_place};
+use harvester_lab::questions::motion_chart::MotionChart;
+use harvester_lab::questions::motions::{Coordinate, MotionPlane, at_place};
 use harvester_lab::scenario::{ModelChoice, Scenario};
 use harvester_lab::scheduler::{Finding, Study, complete};
 
@@ -163,7 +163,7 @@ fn a_chart_in_si_units_is_the_chart_of_the_numbers() -> TestResult {
     let scenario = figure_9();
     let device = scenario.device()?;
     let axis = |dimension, range| (Coordinate::Dimension(dimension), range);
-    let question = MotionQuestion {
+    let question = MotionPlane {
         scenario: scenario.clone(),
         x: axis(Dimension::Frequency, (2.7, 2.9)),
         y: axis(Dimension::MagnetDistance, (0.2, 0.4)),
@@ -179,7 +179,7 @@ fn a_chart_in_si_units_is_the_chart_of_the_numbers() -> TestResult {
     let place = at_place(&scenario, &coordinates, &[2.8, 0.4])?;
     assert!((place.parameters.omega / (8.0969 * 2.8 / device.frequency) - 1.0).abs() < 1e-12);
     assert!((place.device()?.resistance / device.resistance - 1.0).abs() < 1e-12);
-    let plane = MotionQuestion {
+    let plane = MotionPlane {
         scenario: place.clone(),
         x: (Coordinate::Parameter(Parameter::Omega), (place.parameters.omega, 9.0)),
         y: (Coordinate::Parameter(Parameter::Beta), (place.parameters.beta, 0.02)),

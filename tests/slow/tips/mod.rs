@@ -6,7 +6,7 @@ mod truth;
 use self::truth::{Length, Run, Standing, Truth, standing};
 use harvester_lab::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
 use harvester_lab::dynamics::bifurcations::tongue::Window;
-use harvester_lab::dynamics::{Collocation, Settings, Verdict, trace_tongue};
+use harvester_lab::dynamics::{Collocation, Inquiry, Settings, trace_tongue};
 use harvester_lab::model::{ForceLaw, ModelChoice, Parameter, ParameterSet, ReducedSystem, Shaking};
 use harvester_lab::theory::Resonance;
 
@@ -120,7 +120,8 @@ fn check(seed: u64, each: usize) {
     for (set, model) in &points {
         let system = model.system(*set).expect("a device");
         let truth = from_rest(&system);
-        let verdict = Verdict::of(&system, &vec![0.0; system.dimension()], 600.0).expect("a verdict");
+        let inquiry = Inquiry::new(&system, &vec![0.0; system.dimension()], 600.0);
+        let verdict = inquiry.expect("a verdict").verdict;
         let by_verdict = standing(&truth, verdict.motion, verdict.v_rms.unwrap_or(0.0), VOLTS.0);
         let point = swept(set, *model, &system);
         let by_sweep = standing(&truth, point.motion, point.v_rms, VOLTS.1);

@@ -95,16 +95,6 @@ impl Inquiry {
     }
 }
 
-impl Verdict {
-    /// The verdict on the start of `system` in `initial` (length 2N + 1) at t = 0; the plots show it until `t_end`.
-    ///
-    /// # Errors
-    /// [`VerdictError`].
-    pub fn of(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Self, VerdictError> {
-        Ok(Inquiry::new(system, initial, t_end)?.verdict)
-    }
-}
-
 /// Whether a motion is known that chaos may only be the way to.
 fn has_an_end(settler: &Settler, forced: Option<&ForcedMotion>) -> bool {
     let forced = forced.and_then(|forced| forced.orbit.as_ref());

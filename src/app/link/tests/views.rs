@@ -9,19 +9,20 @@ use crate::app::lessons::{LessonId, STEPS};
 use crate::app::text::Language;
 use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched};
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
-use crate::app::view::{Layer, MapWindow, Output, Panel, SweepView, Tab, View};
+use crate::app::view::{MapWindow, Output, Panel, SweepView, Tab, View};
 use crate::dynamics::attractors::sweep::Dwell;
 use crate::model::materials::Ceramic;
 use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet};
-use crate::questions::curves;
 use crate::questions::design::trust::Quantity;
+use crate::questions::{chart, curves};
 use crate::scenario::{END_TIME, ModelChoice, Scenario, VERSION};
 use crate::theory::Resonance;
 
 const TABS: [Tab; 7] =
     [Tab::Explore, Tab::Live, Tab::Stability, Tab::Sweep, Tab::Design, Tab::Paper, Tab::Lessons];
 const MAPS: [MapWindow; 4] = [MapWindow::All, MapWindow::First, MapWindow::Sum, MapWindow::Second];
-const LAYERS: [Layer; 4] = [Layer::Multiplier, Layer::Motion, Layer::Voltage, Layer::Power];
+const LAYERS: [chart::Quantity; 4] =
+    [chart::Quantity::Multiplier, chart::Quantity::Motion, chart::Quantity::VRms, chart::Quantity::Power];
 const OUTPUTS: [Output; 3] = [Output::Voltage, Output::Power, Output::Tip];
 const SCALINGS: [ElectricalScaling; 2] = ElectricalScaling::ALL;
 
