@@ -3,9 +3,9 @@
 use egui::{Color32, Id, Ui};
 use egui_plot::PlotBounds;
 
-use super::{Context, facts};
 use super::design::search::digits::in_digits;
 use super::spec::{Asking, Place, Spec};
+use super::{Context, facts};
 use crate::app::panels::device::adopt;
 use crate::app::text::{fill, say, tr};
 use crate::app::view::design::{Aim, Page};
