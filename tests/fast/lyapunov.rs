@@ -3,9 +3,9 @@
 #![allow(clippy::excessive_precision, reason = "reference values are given as they were printed")]
 
 use crate::{Fallible, OMEGA_1, OMEGA_2, TestResult};
-use harvester_lab::dynamics::attractors::lyapunov::{LEAST_PERIODS, Progress, Sign};
+use harvester_lab::dynamics::attractors::lyapunov::{LEAST_PERIODS, Record, Sign, exponents};
 use harvester_lab::dynamics::integration::rk4::RungeKutta4;
-use harvester_lab::dynamics::{Effort, Exponent, Lyapunov, Orbit, Outcome, Settings, Trajectory, reach};
+use harvester_lab::dynamics::{Effort, Exponent, Orbit, Outcome, Settings, Trajectory, reach};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 
 fn system(alpha: f64, beta: f64, omega: f64, law: ForceLaw) -> Fallible<ReducedSystem> {
@@ -14,8 +14,8 @@ fn system(alpha: f64, beta: f64, omega: f64, law: ForceLaw) -> Fallible<ReducedS
 }
 
 fn exponent(system: &ReducedSystem, state: &[f64], periods: usize) -> Fallible<Exponent> {
-    match Lyapunov::new(system, state)?.advance(periods)? {
-        Progress::Going(Some(exponent)) => Ok(exponent),
+    match exponents(system, state, (periods, periods), &|_| false)? {
+        Record::Exponents(Some(exponent)) => Ok(exponent),
         other => Err(format!("{other:?}").into()),
     }
 }
@@ -131,22 +131,24 @@ fn on_a_chaotic_motion_it_is_the_divergence_of_runge_kutta_runs() -> TestResult 
 }
 
 #[test]
-fn slices_give_the_same_numbers_as_the_whole() -> TestResult {
+fn a_record_that_grew_gives_the_same_numbers_as_the_whole() -> TestResult {
     let system = system(1e-4, 1e-2, OMEGA_1 + OMEGA_2, ForceLaw::Quadratic)?;
     let whole = exponent(&system, &[0.0; 5], 300)?;
-    let mut sliced = Lyapunov::new(&system, &[0.0; 5])?;
-    let mut last = Progress::Going(None);
-    for slice in [1, 7, 92, 100, 99, 1] {
-        last = sliced.advance(slice)?;
+    for by in [1, 7, 92, 299] {
+        let grown = exponents(&system, &[0.0; 5], (by, 300), &|_| false)?;
+        assert_eq!(grown, Record::Exponents(Some(whole)), "{by}");
     }
-    assert_eq!(last, Progress::Going(Some(whole)));
+    // It ends when its exponents are known.
+    let early = exponents(&system, &[0.0; 5], (100, 400), &|found| found.periods > 150)?;
+    assert_eq!(early, Record::Exponents(Some(whole)));
     Ok(())
 }
 
 #[test]
 fn a_short_record_is_not_called_converged() -> TestResult {
     let system = system(1e-4, 1e-2, OMEGA_1 + OMEGA_2, ForceLaw::Quadratic)?;
-    assert_eq!(Lyapunov::new(&system, &[0.0; 5])?.advance(LEAST_PERIODS - 1)?, Progress::Going(None));
+    let short = LEAST_PERIODS - 1;
+    assert_eq!(exponents(&system, &[0.0; 5], (short, short), &|_| false)?, Record::Exponents(None));
     // From rest: the transient is in the record.
     let short = exponent(&system, &[0.0; 5], LEAST_PERIODS)?;
     assert_eq!((short.sign(), short.converged), (Sign::Open, false), "{short:?}");
@@ -156,15 +158,13 @@ fn a_short_record_is_not_called_converged() -> TestResult {
 #[test]
 fn escape_and_contact_are_answers() -> TestResult {
     let escaping = system(1e-4, 1e-2, 2.0 * OMEGA_2, ForceLaw::Quadratic)?;
-    let mut work = Lyapunov::new(&escaping, &[0.0; 5])?;
-    let first = work.advance(100)?;
+    let found = exponents(&escaping, &[0.0; 5], (100, 200), &|_| false)?;
     assert!(
-        matches!(first, Progress::Ended(Outcome::Escaped { time }) if (1.0..1.3).contains(&time)),
-        "{first:?}"
+        matches!(found, Record::Ended(Outcome::Escaped { time }) if (1.0..1.3).contains(&time)),
+        "{found:?}"
     );
-    assert_eq!(work.advance(100)?, first);
     let touching = system(1e-4, 1e-2, 25.0, ForceLaw::Exact)?;
-    let found = Lyapunov::new(&touching, &[-0.1694503, 0.0, 0.0, 0.0, 0.0])?.advance(10);
-    assert!(!matches!(found, Ok(Progress::Going(Some(_)))), "{found:?}");
+    let found = exponents(&touching, &[-0.1694503, 0.0, 0.0, 0.0, 0.0], (10, 10), &|_| false);
+    assert!(!matches!(found, Ok(Record::Exponents(Some(_)))), "{found:?}");
     Ok(())
 }

@@ -5,7 +5,7 @@
 //! transient is in them; were it unstable after all, it would be left.
 
 use super::evidence::{Evidence, EvidenceSource, Observation};
-use super::lyapunov::{Exponent, Lyapunov, Progress, Sign};
+use super::lyapunov::{Exponent, Record, Sign, exponents};
 use super::motion::{Cell, Motion, Reached, Undecided};
 use super::rotation::{Rotation, rotation};
 use super::settle::{Effort, Settler};
@@ -167,22 +167,15 @@ fn separated(a: &Reached, b: &Reached) -> bool {
 /// The exponent by tangent vectors along the motion from `state`, which has settled: a second witness beside multipliers or
 /// averages.
 fn exponent_on(system: &ReducedSystem, state: &[f64]) -> Result<Option<Exponent>, VerdictError> {
-    let mut work = Lyapunov::new(system, state)?;
-    let (first, most) = EXPONENT_PERIODS;
-    let mut done = 0;
-    loop {
-        let periods = first.min(most - done);
-        done += periods;
-        let Progress::Going(exponent) = work.advance(periods)? else { return Ok(None) };
-        let accurate = exponent.is_some_and(|exponent| {
-            exponent.half_width <= ACCURATE * exponent.value.abs()
-                || exponent.value.abs() * exponent.duration > LONG
-                || exponent.sign() == Sign::Zero
-        });
-        if accurate || done >= most {
-            return Ok(exponent);
-        }
-    }
+    let accurate = |exponent: &Exponent| {
+        exponent.half_width <= ACCURATE * exponent.value.abs()
+            || exponent.value.abs() * exponent.duration > LONG
+            || exponent.sign() == Sign::Zero
+    };
+    Ok(match exponents(system, state, EXPONENT_PERIODS, &accurate)? {
+        Record::Exponents(found) => found,
+        Record::Ended(_) | Record::Unresolved => None,
+    })
 }
 
 /// The spectrum of the motion reached; what ends meanwhile was no lasting motion.

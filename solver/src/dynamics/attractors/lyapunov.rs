@@ -158,60 +158,46 @@ fn interval(growth: &[f64], period: f64) -> (f64, f64) {
     (weighted_average(growth) / period, error.max(drift) / period)
 }
 
-/// How far a computation of exponents is.
+/// What a record of a motion says of its exponents.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Progress {
-    /// The exponents of the record so far; `None` while it is shorter than [`LEAST_PERIODS`].
-    Going(Option<Exponent>),
-    /// The motion escaped or touched; its time counts from the start of this computation.
+pub enum Record {
+    /// The exponents; `None` when it is shorter than [`LEAST_PERIODS`].
+    Exponents(Option<Exponent>),
+    /// Nothing: the motion escaped or touched; its time counts from the start of the record.
     Ended(Outcome),
-    /// A step of the motion is too long for its derivative; nothing more can be said.
+    /// Nothing: a step of the motion is too long for its derivative.
     Unresolved,
 }
 
-/// Computes the exponents of one motion, as many periods at a time as the caller likes.
-pub struct Lyapunov {
-    integrator: Collocation,
-    tangents: Tangents,
-    period: f64,
-    ended: Option<Outcome>,
-}
-
-impl std::fmt::Debug for Lyapunov {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Lyapunov").field("time", &self.integrator.time()).field("ended", &self.ended).finish()
-    }
-}
-
-impl Lyapunov {
-    /// Prepares the motion of `system` from `state` (length 2N + 1) at a stroboscopic instant t = 2 pi k / omega,
-    /// best one whose transient has gone.
-    ///
-    /// # Errors
-    /// [`IntegrationError::InitialState`].
-    pub fn new(system: &ReducedSystem, state: &[f64]) -> Result<Self, IntegrationError> {
-        Ok(Self {
-            integrator: Collocation::new(system, state, Settings::default())?,
-            tangents: Tangents::new(system),
-            period: system.parameters.period(),
-            ended: None,
-        })
-    }
-
-    /// Goes on for `periods` excitation periods.
-    ///
-    /// # Errors
-    /// As [`Collocation::advance`].
-    pub fn advance(&mut self, periods: usize) -> Result<Progress, IntegrationError> {
-        let target = self.tangents.growth()[0].len() + periods;
-        while self.ended.is_none() && self.tangents.growth()[0].len() < target {
-            self.ended = self.integrator.advance(f64::INFINITY, 1, &mut |step| self.tangents.record(step))?;
+/// The exponents of the motion of `system` from `state` (length 2N + 1) at a stroboscopic instant t = 2 pi k / omega,
+/// best one whose transient has gone. The record grows `by` excitation periods at a time until they are `known`, or until
+/// it has `most`.
+///
+/// # Errors
+/// [`IntegrationError::InitialState`], and as [`Collocation::advance`].
+pub fn exponents(
+    system: &ReducedSystem,
+    state: &[f64],
+    (by, most): (usize, usize),
+    known: &dyn Fn(&Exponent) -> bool,
+) -> Result<Record, IntegrationError> {
+    let mut integrator = Collocation::new(system, state, Settings::default())?;
+    let mut tangents = Tangents::new(system);
+    let mut periods = 0;
+    loop {
+        periods = most.min(periods + by.max(1));
+        while tangents.growth()[0].len() < periods {
+            if let Some(outcome) = integrator.advance(f64::INFINITY, 1, &mut |step| tangents.record(step))? {
+                return Ok(Record::Ended(outcome));
+            }
         }
-        Ok(match self.ended {
-            Some(outcome) => Progress::Ended(outcome),
-            None if !self.tangents.resolved() => Progress::Unresolved,
-            None => Progress::Going(Exponent::from_growth(self.tangents.growth(), self.period)),
-        })
+        if !tangents.resolved() {
+            return Ok(Record::Unresolved);
+        }
+        let found = Exponent::from_growth(tangents.growth(), system.parameters.period());
+        if periods == most || found.as_ref().is_some_and(known) {
+            return Ok(Record::Exponents(found));
+        }
     }
 }
 

@@ -34,7 +34,7 @@ pub mod voltage_spectrum;
 mod zero_one;
 
 pub use inquiry::Inquiry;
-pub use lyapunov::{Exponent, Lyapunov};
+pub use lyapunov::Exponent;
 pub use motion::{Motion, Reached};
 pub use settle::{Effort, Settler, reach};
 pub use verdict::Verdict;
