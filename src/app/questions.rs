@@ -8,7 +8,7 @@ use crate::model::{Parameter, ParameterSet, Shaking};
 use crate::questions::basin::Basin;
 use crate::questions::chart::{Chart, Quantity};
 use crate::questions::checks::Span;
-use crate::questions::curves::CurvesQuestion;
+use crate::questions::curves::Curves;
 use crate::questions::sweep::{Direction, Sweep};
 use crate::scenario::{Forgotten, Scenario};
 
@@ -66,11 +66,12 @@ pub(super) fn sweep(view: &View, session: &Session) -> (Scenario, Sweep) {
 }
 
 /// The bifurcation curves in the plane in view; `None` when it is empty.
-pub(super) fn curves(view: &View, session: &Session) -> Option<CurvesQuestion> {
+pub(super) fn curves(view: &View, session: &Session) -> Option<(Scenario, Curves)> {
     let axes = view.plane.map(|parameter| (parameter, range_of(view, session, parameter)));
     let numbers = axes.map(|(parameter, (low, _))| Forgotten::Number(parameter, low));
     let scenario = view.scenario.forgetting(&numbers).forgetting(&[Forgotten::Start, Forgotten::Duration]);
-    CurvesQuestion::new(scenario, axes).ok()
+    let curves = Curves::over(axes);
+    curves.plane().is_ok().then_some((scenario, curves))
 }
 
 /// The range chosen, or one that shows what is near: the window of the map, or a span about the present value.

@@ -16,7 +16,7 @@ use harvester_lab::scheduler::budget::{Budget, now};
 
 /// How the command is used.
 fn usage() -> String {
-    let tasks = TASKS.map(|task| task.name).join(", ");
+    let tasks = TASKS.iter().map(|task| task.name).collect::<Vec<_>>().join(", ");
     format!(
         "usage: harvester < request.json > answer.json
        harvester --batch [--timeout SECONDS] < requests.jsonl > answers.jsonl

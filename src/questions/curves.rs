@@ -2,36 +2,161 @@
 //! for starts, then what is new among these is traced.
 
 use nanoserde::{DeBin, SerBin};
+use serde::{Deserialize, Serialize};
 
+use super::checks::{check_ends, count, system};
+use super::error::RequestError;
+use super::question::Question;
 use crate::dynamics::bifurcations::curves::{
-    Curve, KnownCurves, Line, Search, Start, bifurcations_along_line, search_lines, trace_curve,
+    Criticality, Curve, CurvePoint, KnownCurves, Line, Search, SpecialPoint, Start, bifurcations_along_line,
+    search_lines, trace_curve,
 };
-use crate::dynamics::{Axis, OrbitError, Plane};
+use crate::dynamics::{Axis, CurveEnd, Instability, OrbitError, Plane};
 use crate::model::Parameter;
 use crate::scenario::Scenario;
-use crate::scheduler::{Asked, Failure, Order, Piece, Study};
+use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
 
-/// The parameters that a plane may have.
+/// The parameters that a plane of the page may have.
 pub const PARAMETERS: [Parameter; 5] =
     [Parameter::Omega, Parameter::Beta, Parameter::Alpha, Parameter::D, Parameter::Kappa];
+/// Numbers of lines that may be searched along each side.
+const LINES: (usize, usize) = (0, 50);
 
-/// What is traced.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CurvesQuestion {
-    /// The device and its other numbers.
-    pub scenario: Scenario,
-    /// The window.
-    pub plane: Plane,
+/// Curves of bifurcations; the scenario's own values of the two parameters play no role.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Curves {
+    /// The horizontal side of the window.
+    pub x: Side,
+    /// The vertical side.
+    pub y: Side,
+    /// Equidistant lines along each side that are searched, beside those at the frequencies of resonances.
+    #[serde(default = "default_lines")]
+    pub lines: usize,
+    /// Whether the doubled motions that leave the forced one on these lines are searched, too.
+    #[serde(default)]
+    pub doubled: bool,
 }
 
-impl CurvesQuestion {
-    /// The curves of the device of `scenario` in the window of two parameters with their ranges.
+/// A side of the window.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object such as {\"parameter\":\"omega\",\"from\":8,\"to\":9}")]
+pub struct Side {
+    /// One of the ten numbers.
+    pub parameter: Parameter,
+    /// Its lowest value.
+    pub from: f64,
+    /// Its highest value.
+    pub to: f64,
+}
+
+fn default_lines() -> usize {
+    Search::default().lines
+}
+
+impl Curves {
+    /// The curves of the forced motion in the window of two parameters with their ranges.
+    pub fn over(axes: [(Parameter, (f64, f64)); 2]) -> Self {
+        let [x, y] = axes.map(|(parameter, (from, to))| Side { parameter, from, to });
+        let Search { lines, doubled } = Search::default();
+        Self { x, y, lines, doubled }
+    }
+
+    /// The window.
     ///
     /// # Errors
     /// As [`Plane::new`].
-    pub fn new(scenario: Scenario, axes: [(Parameter, (f64, f64)); 2]) -> Result<Self, OrbitError> {
-        let plane = Plane::new(axes.map(|(parameter, range)| Axis { parameter, range }))?;
-        Ok(Self { scenario, plane })
+    pub fn plane(&self) -> Result<Plane, OrbitError> {
+        Plane::new(
+            [self.x, self.y].map(|side| Axis { parameter: side.parameter, range: (side.from, side.to) }),
+        )
+    }
+
+    fn check(&self) -> Result<(), RequestError> {
+        for (field, side) in [("x", self.x), ("y", self.y)] {
+            check_ends(field, (side.from, side.to), side.parameter.range())?;
+        }
+        count("lines", self.lines, LINES)
+    }
+}
+
+/// Curves of bifurcations.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CurvesAnswer {
+    /// The curves in the order in which they were found.
+    pub curves: Vec<CurveAnswer>,
+    /// What kept lines from being searched and curves from being traced.
+    pub failed: Vec<String>,
+}
+
+/// A curve on which motions have a multiplier on the unit circle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CurveAnswer {
+    /// In which way.
+    pub kind: Instability,
+    /// Period of the motions in excitation periods.
+    pub periods: usize,
+    /// Why it ends before its first point and after its last one.
+    pub ends: [CurveEnd; 2],
+    /// Its points in order.
+    pub points: Vec<PointAnswer>,
+    /// The points of codimension two on it, in order.
+    pub special: Vec<SpecialAnswer>,
+}
+
+/// A point of a curve.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PointAnswer {
+    /// To which side motions branch off; null on folds and where it is not known.
+    pub criticality: Option<Criticality>,
+    /// The place, the motion and the normal form.
+    #[serde(flatten)]
+    pub point: CurvePoint,
+}
+
+/// A point of codimension two.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpecialAnswer {
+    /// To which side motions branch off on the curve before it and after it.
+    pub criticality: [Option<Criticality>; 2],
+    /// The place, the motion and the normal form.
+    #[serde(flatten)]
+    pub point: SpecialPoint,
+}
+
+impl CurveAnswer {
+    fn of(curve: &Curve) -> Self {
+        let known = curve.criticality();
+        let beside = |after: usize| {
+            let last = known.len().saturating_sub(1);
+            [after.saturating_sub(1), after].map(|i| known.get(i.min(last)).copied().flatten())
+        };
+        let points = curve.points.iter().zip(&known);
+        let points = points.map(|(point, criticality)| (point.clone(), *criticality));
+        let special = curve.special.iter().cloned();
+        Self {
+            kind: curve.kind,
+            periods: curve.periods,
+            ends: curve.ends.clone(),
+            points: points.map(|(point, criticality)| PointAnswer { criticality, point }).collect(),
+            special: special.map(|point| SpecialAnswer { criticality: beside(point.after), point }).collect(),
+        }
+    }
+}
+
+impl Question for Curves {
+    const TASK: &'static str = "curves";
+    type Answer = CurvesAnswer;
+
+    fn answer(&self, mut scenario: Scenario, budget: &Budget<'_>) -> Result<CurvesAnswer, RequestError> {
+        self.check()?;
+        for side in [self.x, self.y] {
+            *scenario.parameters.get_mut(side.parameter) = side.from;
+        }
+        system(&scenario)?;
+        let mut study = CurvesStudy::new(scenario, self.clone())?;
+        complete_within(&mut study, budget);
+        let curves = study.curves().iter().map(CurveAnswer::of).collect();
+        Ok(CurvesAnswer { curves, failed: study.failures().iter().map(ToString::to_string).collect() })
     }
 }
 
@@ -44,6 +169,8 @@ pub struct Along {
     pub plane: Plane,
     /// The line.
     pub line: Line,
+    /// Whether the doubled motions that leave the forced one are searched, too.
+    pub doubled: bool,
 }
 
 impl Piece for Along {
@@ -52,7 +179,7 @@ impl Piece for Along {
 
     fn carry_out(&self) -> Result<Vec<Start>, Failure> {
         let (system, _) = self.scenario.validate()?;
-        Ok(bifurcations_along_line(&system, &self.plane, self.line, false)?)
+        Ok(bifurcations_along_line(&system, &self.plane, self.line, self.doubled)?)
     }
 }
 
@@ -80,7 +207,8 @@ impl Piece for Trace {
 /// Curves being traced.
 #[derive(Debug, Clone)]
 pub struct CurvesStudy {
-    question: CurvesQuestion,
+    asked: (Scenario, Curves),
+    plane: Plane,
     lines: Vec<Line>,
     starts: Vec<Start>,
     known: KnownCurves,
@@ -92,29 +220,33 @@ pub struct CurvesStudy {
 }
 
 impl CurvesStudy {
-    /// Nothing traced yet.
-    pub fn new(question: CurvesQuestion) -> Self {
-        let lines = question
-            .scenario
+    /// Nothing traced yet of the curves of `scenario`'s device.
+    ///
+    /// # Errors
+    /// As [`Plane::new`].
+    pub fn new(scenario: Scenario, question: Curves) -> Result<Self, OrbitError> {
+        let plane = question.plane()?;
+        let search = Search { lines: question.lines, doubled: question.doubled };
+        let lines = scenario
             .validate()
             .map_err(OrbitError::from)
-            .and_then(|(system, _)| search_lines(&system, &question.plane, Search::default()));
+            .and_then(|(system, _)| search_lines(&system, &plane, search));
         let (mut lines, failures) = match lines {
             Ok(lines) => (lines, Vec::new()),
             Err(error) => (Vec::new(), vec![error.into()]),
         };
         lines.reverse();
-        let known = KnownCurves::new(question.plane);
-        Self {
-            question,
+        Ok(Self {
+            asked: (scenario, question),
+            plane,
             lines,
             starts: Vec::new(),
-            known,
+            known: KnownCurves::new(plane),
             traced: Vec::new(),
             handed: 0,
             returned: 0,
             failures,
-        }
+        })
     }
 
     /// The curves found so far.
@@ -134,17 +266,17 @@ impl CurvesStudy {
 }
 
 impl Asked for CurvesStudy {
-    type Question = CurvesQuestion;
+    type Question = (Scenario, Curves);
 
     fn asked(&self) -> &Self::Question {
-        &self.question
+        &self.asked
     }
 }
 
 impl Study for CurvesStudy {
     fn next(&mut self) -> Option<Order<Self>> {
         self.starts.retain(|start| self.known.is_new(start));
-        let CurvesQuestion { scenario, plane } = self.question.clone();
+        let (scenario, plane, doubled) = (self.asked.0.clone(), self.plane, self.asked.1.doubled);
         let number = self.handed;
         let free = (0..self.starts.len()).find(|i| !self.awaited(&self.starts[*i]));
         let order = if let Some(i) = free {
@@ -165,7 +297,7 @@ impl Study for CurvesStudy {
             })
         } else {
             let line = self.lines.pop()?;
-            Order::new(Along { scenario, plane, line }, |study: &mut Self, found| {
+            Order::new(Along { scenario, plane, line, doubled }, |study: &mut Self, found| {
                 study.returned += 1;
                 match found {
                     Ok(starts) => study.starts.extend(starts),
@@ -201,7 +333,7 @@ mod tests {
         let parameters = ParameterSet { alpha: 1e-4, ..Default::default() };
         let scenario = Scenario { parameters, ..Default::default() };
         let axes = [(Parameter::Omega, (7.8, 8.5)), (Parameter::Beta, (0.0, 0.004))];
-        let mut study = CurvesStudy::new(CurvesQuestion::new(scenario, axes).expect("a window"));
+        let mut study = CurvesStudy::new(scenario, Curves::over(axes)).expect("a window");
         complete(&mut study);
         assert!(study.finished() && study.failures().is_empty(), "{:?}", study.failures());
         let doublings: Vec<_> =

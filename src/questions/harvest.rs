@@ -7,6 +7,7 @@ use nanoserde::{DeBin, SerBin};
 use serde::{Deserialize, Serialize};
 
 use super::checks::{Span, class};
+use super::continuation::Response;
 use super::design::band::{half_power, total, usable};
 use super::design::change::{Way as ChangeWay, between};
 use super::design::linear::{LinearCurve, linear_curve};
@@ -15,7 +16,7 @@ use super::design::{Bounds, DesignError, HarvestPoint, Interval, Operating, Plan
 use super::error::{RequestError, failed};
 use super::motions::{Coordinate, MotionPlane, Motions};
 use super::question::Question;
-use super::response::{Response, ResponseCurve, ResponsePoint, check_range};
+use super::response::{ResponseCurve, ResponsePoint, check_range};
 use super::subject::ACCELERATION_UNIT;
 use super::sweep::{COUNTS, Direction, Sweep, SweepStudy};
 use crate::dynamics::Motion;
@@ -539,9 +540,8 @@ impl Study for HarvestStudy {
             return None;
         }
         if !std::mem::replace(&mut self.branches_handed, true) {
-            let (scenario, range) = (self.plant.scenario.clone(), self.window);
-            let (parameter, shaking) = (Parameter::Omega, self.asked.1.hold);
-            let piece = Response { scenario, parameter, shaking, range };
+            let (scenario, hold) = (&self.plant.scenario, self.asked.1.hold);
+            let piece = Response::forced(scenario, Parameter::Omega, hold, self.window);
             return Some(Order::new(piece, |study: &mut Self, found| study.branches = Some(found)));
         }
         let sweep = self

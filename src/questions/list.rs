@@ -1,54 +1,49 @@
 //! The questions: every one of them stands here, and nowhere else is there a list.
 
 use super::answers::{Answers, Solve};
-use super::basin::{Basin, BasinStudy};
-use super::boundary::Boundary;
-use super::chart::Chart;
+use super::basin::BasinStudy;
+use super::continuation::Response;
 use super::curves::{Along, CurvesStudy, Trace};
-use super::find::{Evaluate, Find, FindStudy};
-use super::harvest::{Between, Deliver, Harvest, HarvestStudy};
+use super::find::{Evaluate, FindStudy};
+use super::harvest::{Between, Deliver, HarvestStudy};
 use super::inspection::Inspect;
-use super::load::{BestAt, Forced, Load, LoadStudy, Reached};
-use super::map::{DesignMap, Map};
-use super::materials::{Fitted, Materials};
-use super::modes::Modes;
+use super::load::{BestAt, Forced, LoadStudy, Reached};
+use super::map::DesignMap;
+use super::materials::Fitted;
 use super::motion_chart::MotionChart;
 use super::motions::Motions;
 use super::multiplier_chart::{Columns, MultiplierChart};
-use super::orbit::Orbit;
 use super::request::Task;
-use super::response::Response;
-use super::simulate::Simulate;
-use super::sweep::{Stretch, Sweep, SweepStudy};
+use super::sweep::{Stretch, SweepStudy};
 use super::tongues::{Border, TongueStudy};
-use super::trust::{Entry, Trust};
-use super::verdict::Verdict;
-use crate::model::Limits;
+use super::trust::Entry;
 use crate::scheduler::lane::Traffic;
 use crate::scheduler::piece::Hand;
 use crate::scheduler::{Failure, Lane, Lanes, Single, Study, Table};
 
 /// What requests may ask: the native command, JavaScript, and programs that the page writes.
-pub const TASKS: [Task; 15] = [
-    Task::of::<Modes>(),
-    Task::of::<Boundary>(),
-    Task::of::<Simulate>(),
-    Task::of::<Orbit>(),
-    Task::of::<Chart>(),
-    Task::of::<Sweep>(),
-    Task::of::<Verdict>(),
-    Task::of::<Basin>(),
-    Task::of::<Harvest>(),
-    Task::of::<Load>(),
-    Task::of::<Materials>(),
-    Task::of::<Limits>(),
-    Task::of::<Trust>(),
-    Task::of::<Find>(),
-    Task::of::<Map>(),
+pub const TASKS: &[Task] = &[
+    Task::of::<super::modes::Modes>(),
+    Task::of::<super::boundary::Boundary>(),
+    Task::of::<super::simulate::Simulate>(),
+    Task::of::<super::orbit::Orbit>(),
+    Task::of::<super::chart::Chart>(),
+    Task::of::<super::sweep::Sweep>(),
+    Task::of::<super::continuation::Continue>(),
+    Task::of::<super::curves::Curves>(),
+    Task::of::<super::verdict::Verdict>(),
+    Task::of::<super::basin::Basin>(),
+    Task::of::<super::harvest::Harvest>(),
+    Task::of::<super::load::Load>(),
+    Task::of::<super::materials::Materials>(),
+    Task::of::<crate::model::Limits>(),
+    Task::of::<super::trust::Trust>(),
+    Task::of::<super::find::Find>(),
+    Task::of::<super::map::Map>(),
 ];
 
 /// What workers can do.
-pub const HANDS: [Hand; 17] = [
+pub const HANDS: &[Hand] = &[
     Hand::of::<Solve>(),
     Hand::of::<Deliver>(),
     Hand::of::<Border>(),

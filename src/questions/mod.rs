@@ -21,6 +21,7 @@ pub mod basin;
 pub mod batch;
 pub mod boundary;
 pub mod chart;
+pub mod continuation;
 pub mod curves;
 pub mod design;
 pub mod error;
@@ -70,5 +71,5 @@ pub fn solve(json: &str) -> Result<String, String> {
 /// As [`solve`].
 pub fn solve_within(json: &str, budget: Budget<'_>) -> Result<String, String> {
     // Names in the message may hold what is in the request.
-    request::answer(&TASKS, json, budget).map_err(|error| error.to_string().replace(char::is_control, " "))
+    request::answer(TASKS, json, budget).map_err(|error| error.to_string().replace(char::is_control, " "))
 }

@@ -4,18 +4,18 @@
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::bifurcations::branch::MOST_EFFORT;
+use crate::dynamics::orbits::period_map::MOST_PERIODS;
 use crate::dynamics::{
     Bifurcation, Branch, BranchEnd, BranchPoint, Course, Instability, Orbit, OrbitError, follow_branch,
     follow_doubled,
 };
 use crate::model::{ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
-use crate::scheduler::{Failure, Piece};
 
 /// Most points of a branch.
 const MOST_POINTS: usize = 1500;
-/// How often period doublings are followed: to motions of 2 and 4 periods.
-const DOUBLINGS: usize = 2;
+/// How often period doublings are followed unless a question says otherwise: to motions of 2 and 4 periods.
+pub const DOUBLINGS: usize = 2;
 /// Two places of a parameter are the same within this fraction of its range.
 const SAME: f64 = 1e-5;
 
@@ -62,44 +62,30 @@ pub struct ResponseCurve {
     pub cut: bool,
 }
 
-/// Response curves of periodic motions.
-#[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
-pub struct Response {
-    /// The device and its other numbers.
-    pub scenario: Scenario,
-    /// What changes.
-    pub parameter: Parameter,
-    /// How the base is shaken meanwhile.
-    pub shaking: Shaking,
-    /// Its lowest and highest value.
-    pub range: (f64, f64),
-}
-
-impl Piece for Response {
-    const NAME: &'static str = "response";
-    /// The branches found.
-    type Found = Vec<ResponseCurve>;
-
-    fn carry_out(&self) -> Result<Vec<ResponseCurve>, Failure> {
-        Ok(response(&self.scenario, (self.parameter, self.shaking), self.range)?)
-    }
-}
-
-/// Follows the forced motion of the device of `scenario` while a parameter goes through `range`, from the low end and, where
-/// it does not come through, from the high end too; then the doubled branches. `moved` is that parameter, and what of the
-/// base's motion stays meanwhile.
-///
-/// The forced motion at an end is the one that Newton's iteration reaches from the linear response there. Branches that
-/// touch none of these, such as isolas, are not found.
+/// The branches of the forced motion of the device of `scenario` and the doubled ones that leave them, as [`branches`].
 ///
 /// # Errors
-/// [`OrbitError`] when the device is not valid at the low end, or has no forced motion at either end.
+/// As [`branches`].
 pub fn response(
     scenario: &Scenario,
     moved: (Parameter, Shaking),
     range: (f64, f64),
 ) -> Result<Vec<ResponseCurve>, OrbitError> {
-    Ok(branches(scenario, moved, range)?.iter().map(curve).collect())
+    Ok(branches(scenario, moved, range, DOUBLINGS)?.iter().map(curve).collect())
+}
+
+/// Where a branch begins.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::questions) enum Begin {
+    /// At the orbit from which it was followed one way, or where that was followed the other way too, why it ends there.
+    End(BranchEnd),
+    /// In a period doubling.
+    Born {
+        /// Index of the branch that doubles its period.
+        on: usize,
+        /// The parameter's value there.
+        value: f64,
+    },
 }
 
 /// A branch that was followed.
@@ -107,6 +93,8 @@ pub(in crate::questions) struct Followed {
     pub(in crate::questions) branch: Branch,
     /// Of its motions, in excitation periods.
     pub(in crate::questions) periods: usize,
+    /// Where it begins; it ends as `branch` says.
+    pub(in crate::questions) begin: Begin,
     /// Whether branches that leave it were left out, because they would have taken too long.
     left_out: bool,
 }
@@ -114,18 +102,33 @@ pub(in crate::questions) struct Followed {
 impl Followed {
     /// Whether more of it, or of the branches that leave it, is not there.
     pub(in crate::questions) fn is_cut(&self) -> bool {
-        self.left_out || matches!(self.branch.end, BranchEnd::Points | BranchEnd::Effort)
+        let cut = |end: &BranchEnd| matches!(end, BranchEnd::Points | BranchEnd::Effort);
+        self.left_out || cut(&self.branch.end) || matches!(&self.begin, Begin::End(end) if cut(end))
     }
 }
 
-/// The same with the states of its orbits.
+/// Branches being followed.
+struct Following<'a> {
+    scenario: &'a Scenario,
+    branches: Vec<Followed>,
+    /// What was computed so far.
+    effort: u64,
+}
+
+/// Follows the forced motion of the device of `scenario` while a parameter goes through `range`, from the low end and, where
+/// it does not come through, from the high end too; then so many `doublings` of the branches' periods. `moved` is that
+/// parameter, and what of the base's motion stays meanwhile.
+///
+/// The forced motion at an end is the one that Newton's iteration reaches from the linear response there. Branches that
+/// touch none of these, such as isolas, are not found.
 ///
 /// # Errors
-/// As [`response`].
+/// [`OrbitError`] when the device is not valid at the low end, or has no forced motion at either end.
 pub(in crate::questions) fn branches(
     scenario: &Scenario,
     moved: (Parameter, Shaking),
     range: (f64, f64),
+    doublings: usize,
 ) -> Result<Vec<Followed>, OrbitError> {
     let from_low = forced(scenario, moved, range, true);
     let through = from_low.as_ref().is_ok_and(|(branch, _)| {
@@ -137,12 +140,66 @@ pub(in crate::questions) fn branches(
         (Err(reason), None | Some(Err(_))) => return Err(reason),
         (low, high) => low.into_iter().chain(high.into_iter().flatten()).collect(),
     };
-    let mut branches = Vec::new();
-    let mut effort = 0;
+    let mut following = Following { scenario, branches: Vec::new(), effort: 0 };
     for (branch, course) in found {
-        add_with_doubled(scenario, (&mut branches, &mut effort), branch, course, DOUBLINGS)?;
+        following.add(branch, Begin::End(BranchEnd::Range), course, doublings)?;
     }
-    Ok(branches)
+    Ok(following.branches)
+}
+
+/// Follows the periodic motion `orbit` of the device of `scenario` both ways in the same manner, then the `doublings`.
+///
+/// # Errors
+/// [`OrbitError`] when the device is not valid, or the orbit is exactly a bifurcation.
+pub(in crate::questions) fn branches_through(
+    scenario: &Scenario,
+    (parameter, shaking): (Parameter, Shaking),
+    range: (f64, f64),
+    orbit: &Orbit,
+    doublings: usize,
+) -> Result<Vec<Followed>, OrbitError> {
+    let system = scenario.model.system(scenario.parameters)?;
+    let value = scenario.parameters.get(parameter);
+    let upwards = value < range.1;
+    let course =
+        Course { parameter, shaking, range, periods: orbit.periods, upwards, most_points: MOST_POINTS };
+    let follow = |upwards: bool| {
+        let mut branch = follow_branch(&system, &orbit.state, &Course { upwards, ..course })?;
+        // Without rounding.
+        branch.points.iter_mut().take(1).for_each(|first| first.value = value);
+        if branch.end == BranchEnd::Closed {
+            branch.points.iter_mut().rev().take(1).for_each(|last| last.value = value);
+        }
+        Ok::<Branch, OrbitError>(branch)
+    };
+    let mut branch = follow(upwards)?;
+    let mut begin = BranchEnd::Range;
+    if branch.end == BranchEnd::Closed {
+        begin = BranchEnd::Closed;
+    } else if upwards && value > range.0 {
+        (branch, begin) = match follow(false)? {
+            back if back.end == BranchEnd::Closed => (back, BranchEnd::Closed),
+            back => joined(back, branch),
+        };
+    }
+    let mut following = Following { scenario, branches: Vec::new(), effort: 0 };
+    following.add(branch, Begin::End(begin), course, doublings)?;
+    Ok(following.branches)
+}
+
+/// Two branches that leave the same orbit as one, from the end of the first to that of the second, and why the first ends.
+fn joined(mut back: Branch, mut forth: Branch) -> (Branch, BranchEnd) {
+    let (count, before) = (back.points.len(), back.points.len().saturating_sub(1));
+    back.points.reverse();
+    back.points.pop();
+    back.points.append(&mut forth.points);
+    back.bifurcations.reverse();
+    back.bifurcations.iter_mut().for_each(|found| found.after = count - found.after);
+    let moved = |found: Bifurcation| Bifurcation { after: before + found.after, ..found };
+    back.bifurcations.extend(forth.bifurcations.into_iter().map(moved));
+    back.effort += forth.effort;
+    let begin = std::mem::replace(&mut back.end, forth.end);
+    (back, begin)
 }
 
 fn forced(
@@ -162,52 +219,55 @@ fn same(a: f64, b: f64, (low, high): (f64, f64)) -> bool {
     (a - b).abs() <= SAME * (high - low)
 }
 
-/// Adds a branch to `branches`, and those that leave its period doublings, unless a doubled branch already ended there, or
-/// all together have taken as much `effort` as a single one may.
-fn add_with_doubled(
-    scenario: &Scenario,
-    (branches, effort): (&mut Vec<Followed>, &mut u64),
-    branch: Branch,
-    course: Course,
-    doublings: usize,
-) -> Result<(), OrbitError> {
-    let births: Vec<Bifurcation> = branch
-        .bifurcations
-        .iter()
-        .filter(|found| found.kind == Instability::PeriodDoubling)
-        .cloned()
-        .collect();
-    let place = branches.len();
-    *effort += branch.effort;
-    branches.push(Followed { branch, periods: course.periods, left_out: false });
-    if doublings == 0 {
-        return Ok(());
+impl Following<'_> {
+    /// Adds a branch, and those that leave its period doublings, unless a doubled branch already ended there, or all
+    /// together have taken as much effort as a single one may.
+    fn add(
+        &mut self,
+        branch: Branch,
+        begin: Begin,
+        course: Course,
+        doublings: usize,
+    ) -> Result<(), OrbitError> {
+        let births: Vec<Bifurcation> = branch
+            .bifurcations
+            .iter()
+            .filter(|found| found.kind == Instability::PeriodDoubling)
+            .cloned()
+            .collect();
+        let place = self.branches.len();
+        self.effort += branch.effort;
+        self.branches.push(Followed { branch, periods: course.periods, begin, left_out: false });
+        if doublings == 0 || 2 * course.periods > MOST_PERIODS {
+            return Ok(());
+        }
+        let system = self.scenario.model.system(self.scenario.parameters)?;
+        let mut closed: Vec<f64> = Vec::new();
+        for birth in &births {
+            let value = birth.point.value;
+            if closed.iter().any(|other| same(*other, value, course.range)) {
+                continue;
+            }
+            if self.effort > MOST_EFFORT {
+                self.branches[place].left_out = true;
+                break;
+            }
+            // A doubling so degenerate that no doubled motion is found beside it leaves the rest of the picture intact.
+            let Ok(doubled) = follow_doubled(&system, birth, &course) else { continue };
+            if let BranchEnd::Halved { value } = doubled.end {
+                closed.push(value);
+            }
+            let course = Course { periods: 2 * course.periods, ..course };
+            self.add(doubled, Begin::Born { on: place, value }, course, doublings - 1)?;
+        }
+        Ok(())
     }
-    let system = scenario.model.system(scenario.parameters)?;
-    let mut closed: Vec<f64> = Vec::new();
-    for birth in &births {
-        if closed.iter().any(|value| same(*value, birth.point.value, course.range)) {
-            continue;
-        }
-        if *effort > MOST_EFFORT {
-            branches[place].left_out = true;
-            break;
-        }
-        // A doubling so degenerate that no doubled motion is found beside it leaves the rest of the picture intact.
-        let Ok(doubled) = follow_doubled(&system, birth, &course) else { continue };
-        if let BranchEnd::Halved { value } = doubled.end {
-            closed.push(value);
-        }
-        let course = Course { periods: 2 * course.periods, ..course };
-        add_with_doubled(scenario, (&mut *branches, &mut *effort), doubled, course, doublings - 1)?;
-    }
-    Ok(())
 }
 
-fn curve(followed: &Followed) -> ResponseCurve {
+pub(in crate::questions) fn curve(followed: &Followed) -> ResponseCurve {
     let Followed { branch, periods, .. } = followed;
     let end = match &branch.end {
-        BranchEnd::Range | BranchEnd::Halved { .. } => String::new(),
+        BranchEnd::Range | BranchEnd::Halved { .. } | BranchEnd::Closed => String::new(),
         BranchEnd::Lost { reason } => reason.to_string(),
         BranchEnd::Points => "the largest number of points was reached".to_owned(),
         BranchEnd::Effort => "following it further would take too long".to_owned(),

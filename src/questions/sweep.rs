@@ -5,9 +5,10 @@ use nanoserde::{DeBin, SerBin};
 use serde::{Deserialize, Serialize};
 
 use super::checks::{check_ends, count, system};
+use super::continuation::Response;
 use super::error::{RequestError, failed};
 use super::question::Question;
-use super::response::{Response, ResponseCurve, response};
+use super::response::{ResponseCurve, response};
 use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
 use crate::model::{Parameter, Shaking};
 use crate::scenario::Scenario;
@@ -86,8 +87,7 @@ impl Sweep {
 
     /// The branches of periodic motions over its range; no start leads to them.
     pub fn response(&self, scenario: &Scenario) -> Response {
-        let scenario = Scenario { initial: None, ..scenario.clone() };
-        Response { scenario, parameter: self.parameter, shaking: self.shaking, range: self.range() }
+        Response::forced(scenario, self.parameter, self.shaking, self.range())
     }
 
     /// The values in the order of `direction`.

@@ -171,6 +171,39 @@ fn a_bad_request_gets_status_2_and_one_line_that_names_the_field() {
             &["count times kept", "2000000", "200000"],
         ),
         (r#"{"task":"sweep","parameter":"omega","from":8,"to":9,"transient":9999}"#, &["transient", "5000"]),
+        (r#"{"task":"continue","parameter":"omega","from":9,"to":9}"#, &["omega.to", "9 must be above"]),
+        (
+            r#"{"task":"continue","parameter":"omega","from":9,"to":10,"doublings":7}"#,
+            &["doublings", "0 to 6"],
+        ),
+        (
+            r#"{"task":"continue","parameter":"omega","from":9,"to":10,"guess":[0,0,0,0,0]}"#,
+            &["omega = 25", "9 to 10"],
+        ),
+        (
+            r#"{"task":"continue","parameter":"omega","from":9,"to":30,"guess":[0],"initial":[0,0,0,0,0]}"#,
+            &["guess", "initial"],
+        ),
+        (
+            r#"{"task":"continue","parameter":"omega","from":9,"to":30,"guess":[0]}"#,
+            &["guess", "5 numbers", "1"],
+        ),
+        (
+            r#"{"task":"continue","parameter":"omega","from":8,"to":30,"parameters":{"alpha":1e-4,"beta":0.01,"omega":25.4047},"initial":[0,0,0,0,0]}"#,
+            &["initial", "no periodic motion", "quasiperiodic"],
+        ),
+        (
+            r#"{"task":"curves","x":{"parameter":"omega","from":9,"to":8},"y":{"parameter":"beta","from":0,"to":0.1}}"#,
+            &["x.to", "8", "9 to 500"],
+        ),
+        (
+            r#"{"task":"curves","x":{"parameter":"omega","from":8,"to":9},"y":{"parameter":"omega","from":8,"to":9}}"#,
+            &["omega", "differ"],
+        ),
+        (
+            r#"{"task":"curves","x":{"parameter":"gamma","from":8,"to":9}}"#,
+            &["x.parameter", "`gamma`", "`omega`"],
+        ),
         (r#"{"task":"verdict","t_end":1e6}"#, &["t_end", "1000000", "1 to 5000"]),
         (r#"{"task":"verdict","initial":[0]}"#, &["initial", "5 numbers", "1"]),
         (r#"{"task":"basin","count":1}"#, &["count", "1", "2 to 512"]),
@@ -201,7 +234,8 @@ fn input_that_is_no_text_is_refused_and_arguments_are_explained() {
     }
     let help = String::from_utf8_lossy(&harvester(&["--help"], b"").stdout).into_owned();
     let tasks = help.lines().find_map(|line| line.strip_prefix("Tasks: ")).expect("the tasks");
-    let names = harvester_lab::questions::list::TASKS.map(|task| task.name).join(", ");
+    let names =
+        harvester_lab::questions::list::TASKS.iter().map(|task| task.name).collect::<Vec<_>>().join(", ");
     assert_eq!(tasks.trim_end_matches('.'), names);
     let output = harvester(&["--fast"], b"");
     assert_eq!(output.status.code(), Some(2));
@@ -214,9 +248,10 @@ fn every_example_of_the_readme_has_an_answer() {
     let readme = include_str!("../../README.md");
     let after = |line: &'static str| line.strip_prefix("echo '")?.split_once("' | target/release/harvester");
     let requests: Vec<&str> = readme.lines().filter_map(after).map(|(request, _)| request).collect();
-    for task in
-        ["modes", "boundary", "simulate", "orbit", "chart", "sweep", "verdict", "basin", "harvest", "find"]
-    {
+    for task in [
+        "modes", "boundary", "simulate", "orbit", "chart", "sweep", "continue", "curves", "verdict", "basin",
+        "harvest", "find",
+    ] {
         let asks = |request: &&&str| request.contains(&format!("\"task\":\"{task}\""));
         assert!(requests.iter().any(|request| asks(&request)), "the README has no example of {task}");
     }
@@ -252,6 +287,20 @@ fn every_example_of_the_readme_has_an_answer() {
                     given["points"].as_array().map(|points| points.len() as u64),
                     asked["count"].as_u64()
                 );
+            }
+            Some("continue") => {
+                // An independent program's boundary: 0.001628 at this frequency.
+                let found = &given["branches"][0]["bifurcations"][0];
+                assert!(close(&found["beta"], 0.001628, 3e-4), "{found}");
+                assert_eq!(
+                    (&found["kind"], &found["criticality"]),
+                    (&"period_doubling".into(), &"subcritical".into())
+                );
+            }
+            Some("curves") => {
+                let special = &given["curves"][0]["special"][0];
+                assert_eq!(special["kind"], "generalized_period_doubling");
+                assert!(close(&special["at"][0], 8.156415, 1e-6), "{special}");
             }
             Some("verdict") => assert_eq!(given["motion"]["kind"], "quasiperiodic"),
             Some("basin") => {

@@ -9,6 +9,7 @@ use harvester_lab::dynamics::{Axis, Plane};
 use harvester_lab::model::materials::Ceramic;
 use harvester_lab::model::{ForceLaw, Limits, Parameter, ParameterSet, Shaking};
 use harvester_lab::questions::answers::Solve;
+use harvester_lab::questions::continuation::{Continue, Response};
 use harvester_lab::questions::curves::{Along, Trace};
 use harvester_lab::questions::design::change::Way;
 use harvester_lab::questions::design::find::{FindQuestion, Objective, Variable};
@@ -21,7 +22,6 @@ use harvester_lab::questions::load::{BestAt, Forced, Reached};
 use harvester_lab::questions::materials::Fitted;
 use harvester_lab::questions::motions::{Coordinate, MotionPlane, Motions};
 use harvester_lab::questions::multiplier_chart::Columns;
-use harvester_lab::questions::response::Response;
 use harvester_lab::questions::sweep::Stretch;
 use harvester_lab::questions::tongues::Border;
 use harvester_lab::questions::trust::Entry;
@@ -72,14 +72,26 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
         limits: Limits::default(),
     };
     let line = Line { along: 0, at: 0.01 };
-    let starts = Along { scenario: scenario.clone(), plane: plane(), line }.carry_out().expect("starts");
+    let along = Along { scenario: scenario.clone(), plane: plane(), line, doubled: false };
+    let starts = along.carry_out().expect("starts");
     let mut names = vec![
         sent(&Solve { request: "{\"task\":\"modes\"}".to_owned() }),
         sent(&Deliver { scenario: scenario.clone() }),
         sent(&Border { scenario: scenario.clone(), resonance: Resonance::Sum, window }),
         sent(&Inspect { scenario: scenario.clone() }),
         sent(&Columns { scenario: scenario.clone(), omegas: vec![25.4, 25.5], betas: vec![1e-3, 1e-2, 2.0] }),
-        sent(&Response { scenario: scenario.clone(), parameter, shaking, range: (7.5, 8.6) }),
+        sent(&Response {
+            scenario: scenario.clone(),
+            question: Continue {
+                parameter,
+                from: 7.5,
+                to: 8.6,
+                hold: shaking,
+                guess: None,
+                periods: 1,
+                doublings: 1,
+            },
+        }),
         sent(&Stretch {
             scenario: scenario.clone(),
             parameter,
@@ -88,7 +100,7 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
             state: state.clone(),
             dwell: Dwell { discarded: 20, kept: 8 },
         }),
-        sent(&Along { scenario: scenario.clone(), plane: plane(), line }),
+        sent(&along),
         sent(&Trace {
             scenario: scenario.clone(),
             plane: plane(),
@@ -144,5 +156,5 @@ fn the_readme_has_a_row_for_every_task() {
     let table = readme.split("| task | further fields | answer |").nth(1).expect("the table of tasks");
     let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
     let names: Vec<&str> = rows.filter_map(|row| row.split('`').nth(1)).collect();
-    assert_eq!(names, TASKS.map(|task| task.name));
+    assert_eq!(names, TASKS.iter().map(|task| task.name).collect::<Vec<_>>());
 }

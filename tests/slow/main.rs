@@ -6,6 +6,7 @@
 mod basins;
 mod bench;
 mod bifurcation_curves;
+mod branches;
 mod continuation;
 mod design;
 mod edge;

@@ -1,6 +1,7 @@
 //! Requests as people and their tools write them, good and bad, to every task.
 
 use harvester_lab::model::STANDARD_GRAVITY;
+use harvester_lab::questions::list::TASKS;
 use harvester_lab::questions::solve;
 use serde_json::{Map, Value, json};
 
@@ -13,6 +14,11 @@ fn smallest(task: &str) -> Map<String, Value> {
             "quantity": "multiplier",
         }),
         "sweep" => json!({"parameter": "omega", "from": 24, "to": 25, "count": 2, "transient": 5, "kept": 1}),
+        "continue" => json!({"parameter": "omega", "from": 24, "to": 24.1}),
+        "curves" => json!({
+            "x": {"parameter": "omega", "from": 24, "to": 24.1}, "y": {"parameter": "beta", "from": 0, "to": 0.001},
+            "lines": 1,
+        }),
         "simulate" => json!({"t_end": 1}),
         "basin" => json!({"count": 2}),
         "load" => json!({"from": 1e6, "to": 1e7, "per_decade": 1}),
@@ -28,24 +34,6 @@ fn smallest(task: &str) -> Map<String, Value> {
     fields
 }
 
-const TASKS: [&str; 15] = [
-    "modes",
-    "boundary",
-    "simulate",
-    "orbit",
-    "chart",
-    "sweep",
-    "verdict",
-    "basin",
-    "harvest",
-    "load",
-    "materials",
-    "limits",
-    "trust",
-    "find",
-    "map",
-];
-
 fn refused(request: &str) -> String {
     let message = solve(request).expect_err("a bad request");
     assert_eq!(message.lines().count(), 1, "{message}");
@@ -60,7 +48,7 @@ fn refused(request: &str) -> String {
 #[test]
 fn errors_of_all_tasks_speak_plainly_and_repeat_little() {
     let megabyte = "y".repeat(1 << 20);
-    for task in TASKS {
+    for task in TASKS.iter().map(|task| task.name) {
         let with = |name: &str, value: Value| {
             let mut fields = smallest(task);
             fields.insert(name.to_owned(), value);
@@ -128,7 +116,7 @@ fn errors_of_all_tasks_speak_plainly_and_repeat_little() {
 
 #[test]
 fn a_name_given_twice_is_refused_with_its_path() {
-    for task in TASKS {
+    for task in TASKS.iter().map(|task| task.name) {
         let fields = Value::Object(smallest(task)).to_string();
         let twice = |more: &str| refused(&format!("{},{more}}}", fields.trim_end_matches('}')));
         // What ends in more than one brace is closed again by what is added.
@@ -176,7 +164,7 @@ fn every_task_takes_a_device_in_si_units() {
     };
     same["kappa"] = Value::from(units.kappa);
     assert!((bench["acceleration"].as_f64().unwrap_or_default() / 0.02 - 1.0).abs() < 1e-12, "{bench}");
-    for task in ["modes", "boundary", "simulate", "orbit", "chart", "sweep", "basin"] {
+    for task in ["modes", "boundary", "simulate", "orbit", "chart", "sweep", "continue", "curves", "basin"] {
         let by_device = numbers(task, fields.clone()).expect(task);
         let by_numbers = numbers(task, json!({"parameters": same})).expect(task);
         // A device is turned into numbers with rounding in the last digit.
@@ -240,7 +228,7 @@ fn a_spent_budget_leaves_out_what_was_not_begun_and_says_so() {
     assert!(run["t_outcome"].as_f64().is_some_and(|t| t > 0.0 && t < 20_000.0), "{run}");
     assert_eq!(run["t"].as_array().and_then(|times| times.last()), Some(&run["t_outcome"]));
     // Each task says something within the least budget, and all of it within the usual one.
-    for task in TASKS {
+    for task in TASKS.iter().map(|task| task.name) {
         let mut fields = smallest(task);
         fields.insert("budget".to_owned(), json!(0.001));
         let short = solve(&Value::Object(fields.clone()).to_string());

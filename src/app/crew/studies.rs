@@ -1,9 +1,10 @@
 //! What is being studied for the page: one lane a topic, the newest question of each.
 
+use crate::questions::continuation::{Continue, Response};
 use crate::questions::design::linear::LinearBest;
 use crate::questions::inspection::{Inspect, Inspection};
 use crate::questions::list;
-use crate::questions::response::{Response, ResponseCurve};
+use crate::questions::response::ResponseCurve;
 use crate::questions::tongues::TongueStudy;
 use crate::scenario::Scenario;
 use crate::scheduler::{Asked as _, Failure, Lanes, Piece, Single, Table};
@@ -21,7 +22,7 @@ pub(in crate::app) struct Studies {
 /// Response curves to draw.
 pub(in crate::app) struct Followed<'a> {
     /// The question that they answer.
-    pub question: &'a Response,
+    pub question: &'a Continue,
     /// The curves, or why there are none.
     pub curves: Result<&'a [ResponseCurve], &'a Failure>,
     /// Whether it is the newest question.
@@ -62,7 +63,7 @@ impl Studies {
         let curves = study.found()?.map(Vec::as_slice);
         let wanted: Option<&Single<Response>> = self.lanes.wanted();
         let newest = wanted.is_some_and(|wanted| wanted.asked() == study.asked());
-        Some(Followed { question: study.asked(), curves, newest })
+        Some(Followed { question: &study.asked().question, curves, newest })
     }
 
     /// The newest verdict and its evidence, and whether it belongs to `scenario`.

@@ -37,7 +37,7 @@ fn hint(context: &Context<'_>) -> String {
 
 fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
     if let Some(question) = questions::curves(view, session) {
-        studies.lanes.ask(question, |question| Some(CurvesStudy::new(question)));
+        studies.lanes.ask(question, |(scenario, curves)| CurvesStudy::new(scenario, curves).ok());
     }
 }
 
@@ -76,10 +76,9 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(question) = questions::curves(context.view, context.session) else { return };
-    let [x_axis, y_axis] = *question.plane.axes();
-    let (x, y) = (facts::axis(x_axis.parameter.fact()), facts::axis(y_axis.parameter.fact()));
-    let study =
-        context.studies.lanes.study::<CurvesStudy>().filter(|study| study.asked().plane == question.plane);
+    let (x_side, y_side) = (question.1.x, question.1.y);
+    let (x, y) = (facts::axis(x_side.parameter.fact()), facts::axis(y_side.parameter.fact()));
+    let study = context.studies.lanes.study::<CurvesStudy>().filter(|study| study.asked().1 == question.1);
     let current = study.is_some_and(|study| *study.asked() == question);
     let curves = study.map_or(&[][..], |study| study.curves());
     let stretches = curves.iter().flat_map(|curve| {
@@ -102,7 +101,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
         .allow_scroll(false)
         .allow_double_click_reset(false)
         .show(ui, |plot| {
-            let (low, high) = ([x_axis.range.0, y_axis.range.0], [x_axis.range.1, y_axis.range.1]);
+            let (low, high) = ([x_side.from, y_side.from], [x_side.to, y_side.to]);
             plot.set_plot_bounds(PlotBounds::from_min_max(low, high));
             for (kind, name, line) in &lines {
                 plot_style::series(plot, *kind, name, line);
@@ -112,13 +111,13 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
             }
         });
     let parameters = context.view.scenario.parameters;
-    let here = [parameters.get(x_axis.parameter), parameters.get(y_axis.parameter)];
+    let here = [parameters.get(x_side.parameter), parameters.get(y_side.parameter)];
     let drag = plot_style::operating_point(ui, &shown, tr("Operating point in this plane"), here);
     if let Some(moved) = drag.moved {
         context.edit(|scenario| {
-            for (axis, value) in [x_axis, y_axis].iter().zip(moved) {
-                let value = value.clamp(axis.range.0, axis.range.1);
-                *scenario.parameters.get_mut(axis.parameter) = round_significant(value, 5);
+            for (side, value) in [x_side, y_side].iter().zip(moved) {
+                let value = value.clamp(side.from, side.to);
+                *scenario.parameters.get_mut(side.parameter) = round_significant(value, 5);
             }
         });
     }

@@ -12,7 +12,7 @@ use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::orbits::orbit::Measures;
 use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError};
 use crate::model::{Limits, ModelError, Parameter, ReducedSystem, Shaking};
-use crate::questions::response::{Followed, branches};
+use crate::questions::response::{DOUBLINGS, Followed, branches};
 use crate::scenario::Scenario;
 use crate::theory::{Source, TheoryError};
 
@@ -175,7 +175,7 @@ pub fn best_frequency(
         return Err(TheoryError::Undamped { omega }.into());
     }
     // Without any branch the device still has its linear one.
-    let branches = match branches(&plant.scenario, (Parameter::Omega, shaking), window) {
+    let branches = match branches(&plant.scenario, (Parameter::Omega, shaking), window, DOUBLINGS) {
         Err(error @ OrbitError::Model(ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
             return Err(error.into());
         }

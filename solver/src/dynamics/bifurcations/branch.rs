@@ -72,6 +72,8 @@ pub enum BranchEnd {
         /// What the last attempt met.
         reason: OrbitError,
     },
+    /// The branch is closed: it came back to its start, which is its last point, too.
+    Closed,
     /// The largest number of points was reached.
     Points,
     /// More was computed than a branch may cost.

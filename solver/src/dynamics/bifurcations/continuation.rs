@@ -25,6 +25,8 @@ const LOCATED: f64 = 1e-9;
 const CLOSED: f64 = 1e-6;
 /// Secants that locate the place on the orbit of half the period.
 const MOST_SECANTS: usize = 12;
+/// The same for the return to a start.
+const RETURNED: f64 = 1e-6;
 /// Distance from the unit circle beyond which a zero of a test function was not a change of stability.
 const ON_CIRCLE: f64 = 1e-4;
 /// Distances at which the doubled branch is looked for beside its origin, in units of the gap.
@@ -113,6 +115,7 @@ impl Follower {
 
     fn run(mut self, start: DVector<f64>, tangent: DVector<f64>) -> Result<Branch, OrbitError> {
         let mut here = self.read(start, tangent)?;
+        let phases = self.phases(&here.place.clone())?;
         self.branch.points.push(here.point.clone());
         let mut step = STEPS.0;
         while self.branch.points.len() < self.course.most_points {
@@ -137,6 +140,8 @@ impl Follower {
                 step *= 0.5;
                 continue;
             }
+            let home = if self.branch.points.len() > 2 { self.returned(&phases, &here, &next) } else { None };
+            let (returned, next) = (home.is_some(), home.unwrap_or(next));
             let length = (&next.place - &here.place).dot(&here.tangent);
             let end = match self.halved(&here, &next, length) {
                 Ok(Some(value)) => Some(BranchEnd::Halved { value }),
@@ -151,8 +156,8 @@ impl Follower {
                 break;
             }
             self.branch.points.push(next.point.clone());
-            if border {
-                self.branch.end = BranchEnd::Range;
+            if border || returned {
+                self.branch.end = if returned { BranchEnd::Closed } else { BranchEnd::Range };
                 break;
             }
             here = next;
@@ -194,6 +199,32 @@ impl Follower {
         let mut next = self.read(place, tangent)?;
         next.point.value = value;
         Ok(((&next.place - guess).norm(), next, true))
+    }
+
+    /// The stroboscopic states of the orbit at `place`, that one first, with the same parameter.
+    fn phases(&mut self, place: &DVector<f64>) -> Result<Vec<DVector<f64>>, OrbitError> {
+        let (beta, value) = (self.family.beta(), self.family.value(place));
+        let mut phases = vec![place.clone()];
+        let mut state = self.family.state(place);
+        for _ in 1..self.course.periods {
+            self.family.solver.evaluate_at(&state, beta, 1)?;
+            state = self.family.solver.map().image().to_vec();
+            phases.push(self.family.place(&state, [value]));
+        }
+        Ok(phases)
+    }
+
+    /// The station between two others at which the branch comes back to its origin, an orbit with these `phases`, if it
+    /// does. A branch of orbits of several periods may come back to it at any of them.
+    fn returned(&mut self, phases: &[DVector<f64>], here: &Station, next: &Station) -> Option<Station> {
+        let length = (&next.place - &here.place).dot(&here.tangent);
+        phases.iter().find_map(|phase| {
+            let ahead = phase - &here.place;
+            let step = ahead.dot(&here.tangent);
+            let near = (0.0..=length).contains(&step) && ahead.norm() <= 2.0 * length;
+            let (_, there) = near.then(|| self.advance(here, step).ok())??;
+            ((&there.place - phase).amax() <= RETURNED).then_some(there)
+        })
     }
 
     /// Measures the orbit at `place`.

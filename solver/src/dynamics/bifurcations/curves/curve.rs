@@ -206,24 +206,36 @@ pub struct Stretch {
 }
 
 impl Curve {
+    /// The criticality at each point: one without a coefficient has that of the point before, the first ones that of the
+    /// first which has one.
+    pub fn criticality(&self) -> Vec<Option<Criticality>> {
+        let of = |point: &CurvePoint| point.coefficient.and_then(|value| Criticality::of(self.kind, value));
+        let mut known = self.points.iter().find_map(of);
+        let points = self.points.iter();
+        points
+            .map(|point| {
+                known = of(point).or(known);
+                known
+            })
+            .collect()
+    }
+
     /// The curve in stretches of the same criticality, each from where the one before ends. A point without a coefficient
     /// belongs to the stretch on the way to it.
     pub fn stretches(&self) -> Vec<Stretch> {
-        let criticality =
-            |point: &CurvePoint| point.coefficient.and_then(|value| Criticality::of(self.kind, value));
-        let first = self.points.iter().find_map(criticality);
-        let mut stretches = vec![Stretch { criticality: first, places: Vec::new() }];
-        for (i, point) in self.points.iter().enumerate() {
+        let known = self.criticality();
+        let mut stretches =
+            vec![Stretch { criticality: known.first().copied().flatten(), places: Vec::new() }];
+        for (i, (point, criticality)) in self.points.iter().zip(known).enumerate() {
             let between = self.special.iter().filter(|special| special.after == i).map(|special| special.at);
             let Some(stretch) = stretches.last_mut() else { break };
-            let known = criticality(point).or(stretch.criticality);
             let before = stretch.places.last().copied();
-            if known == stretch.criticality {
+            if criticality == stretch.criticality {
                 stretch.places.extend(between.chain([point.at]));
             } else {
                 stretch.places.extend(between);
                 let begin = stretch.places.last().copied().or(before).unwrap_or(point.at);
-                stretches.push(Stretch { criticality: known, places: vec![begin, point.at] });
+                stretches.push(Stretch { criticality, places: vec![begin, point.at] });
             }
         }
         stretches

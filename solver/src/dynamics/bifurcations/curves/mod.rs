@@ -20,5 +20,6 @@ mod tracer;
 
 pub use curve::{Criticality, Curve, CurveEnd, CurvePoint, SpecialKind, SpecialPoint, Start, Stretch};
 pub use known::KnownCurves;
+pub use normal_form::normal_form;
 pub use search::{Line, Search, Survey, bifurcations_along_line, find_curves, search_lines};
 pub use tracer::trace_curve;

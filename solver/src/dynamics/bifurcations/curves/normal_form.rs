@@ -20,8 +20,10 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::condition::Condition;
 use crate::dynamics::bifurcations::arclength::Family;
+use crate::dynamics::bifurcations::plane::Axis;
 use crate::dynamics::orbits::floquet::eigenvector;
 use crate::dynamics::orbits::{Instability, OrbitError};
+use crate::model::{Parameter, ReducedSystem};
 
 /// Step of the differences along an eigenvector, in units of the gap.
 const STEP: f64 = 1e-3;
@@ -29,6 +31,30 @@ const STEP: f64 = 1e-3;
 /// Distance of the cosine of a pair's angle from that of a real multiplier within which the coefficient, which grows
 /// beyond all bounds there, is lost in the errors.
 const REAL: f64 = 1e-5;
+
+/// The coefficient of the normal form of a bifurcation of one parameter, as that of a [`super::CurvePoint`]: of the
+/// `kind` at which the orbit of `periods` excitation periods of `system` is that has this `state` (length 2N + 1) at t = 0.
+/// `None` at a fold, and where it has no finite value.
+///
+/// # Errors
+/// Those of the map at the orbit and beside it, [`OrbitError::Singular`] where an eigenvector cannot be computed.
+pub fn normal_form(
+    system: &ReducedSystem,
+    kind: Instability,
+    periods: usize,
+    state: &[f64],
+) -> Result<Option<f64>, OrbitError> {
+    if system.undamped() {
+        return Ok(None);
+    }
+    let axis = Axis { parameter: Parameter::Beta, range: Parameter::Beta.range() };
+    let mut family = Family::new(system, [axis], periods)?;
+    let beta = family.beta();
+    family.solver.evaluate_at(state, beta, periods)?;
+    let multipliers = family.solver.multipliers()?;
+    let Some(condition) = Condition::at(kind, &multipliers) else { return Ok(None) };
+    Ok(NormalForm::new(&mut family, condition, None)?.and_then(|form| form.coefficient))
+}
 
 /// The coefficient at a place and what it was computed with.
 #[derive(Debug, Clone)]
@@ -160,8 +186,8 @@ fn finite(value: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::dynamics::bifurcations::curves::{CurvePoint, Search, find_curves};
-    use crate::dynamics::bifurcations::plane::{Axis, Plane};
-    use crate::model::{ForceLaw, Parameter, ParameterSet, Parameters, ReducedSystem};
+    use crate::dynamics::bifurcations::plane::Plane;
+    use crate::model::{ForceLaw, ParameterSet, Parameters};
 
     /// Each point of the curves in the window of omega and beta, with the orbits evaluated there.
     fn each_point(
