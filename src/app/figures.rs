@@ -20,6 +20,9 @@ enum Frequency {
     TwiceSecond,
 }
 
+/// The numbers of the figures that there are; 1 are the tables.
+pub(super) const NUMBERS: (usize, usize) = (1, 12);
+
 /// What a figure shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {

@@ -10,7 +10,7 @@ mod sweep;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use self::design::DesignView;
+use self::design::{DesignView, Side};
 pub use self::front::{MapWindow, Tab};
 use self::live::LiveView;
 pub use self::panel::Panel;
@@ -20,14 +20,14 @@ pub use self::sweep::{Output, SweepView};
 use super::figures::{self, Figure};
 use super::lessons::{LessonId, STEPS};
 use crate::app::text::{Language, fill};
-use crate::model::{ModelError, Parameter};
+use crate::model::{Device, Dimension, ElectricalScaling, ModelError, Parameter};
 use crate::questions::chart::Quantity;
 use crate::questions::curves;
 use crate::questions::input::{self, FieldError};
 use crate::scenario::{Scenario, counted};
-use crate::sentence::{Sentence, said};
+use crate::sentence::{Say, Sentence, said};
 
-/// Scenario and view, as stored.
+/// Scenario and view, as stored; the fields in the order that links have.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct View {
@@ -35,29 +35,18 @@ pub struct View {
     pub scenario: Scenario,
     /// The tab in front.
     pub tab: Tab,
-    /// Dark or light; the system's choice when absent.
-    pub dark: Option<bool>,
-    /// The language of the texts; the browser's choice when absent.
-    #[serde(rename = "lang")]
-    pub language: Option<Language>,
-    /// High contrast or not; the system's choice when absent.
-    pub contrast: Option<bool>,
-    /// Large type for the lecture room.
-    pub projector: bool,
     /// Window of the stability map.
     pub map: MapWindow,
-    /// The figure of the paper that was loaded last.
-    pub figure: u8,
-    /// The panel that fills the page.
-    pub enlarged: Option<Panel>,
-    /// Whether the beam moves.
-    pub beam_moves: bool,
     /// What the chart shows.
     pub layer: Quantity,
     /// What is swept.
     pub sweep: SweepView,
     /// The two parameters of the plane of bifurcation curves.
     pub plane: [Parameter; 2],
+    /// The figure of the paper that was loaded last.
+    pub figure: u8,
+    /// The panel that fills the page.
+    pub enlarged: Option<Panel>,
     /// The Design tab.
     pub design: DesignView,
     /// The Live tab.
@@ -66,6 +55,35 @@ pub struct View {
     pub lesson: Option<LessonId>,
     /// Its step, from 1; the last one when there are fewer.
     pub step: usize,
+    /// The language of the texts; the browser's choice when absent.
+    #[serde(rename = "lang")]
+    pub language: Option<Language>,
+    /// Dark or light; the system's choice when absent.
+    pub dark: Option<bool>,
+    /// High contrast or not; the system's choice when absent.
+    pub contrast: Option<bool>,
+    /// Large type for the lecture room.
+    pub projector: bool,
+    /// Whether the beam moves.
+    pub beam_moves: bool,
+}
+
+/// What of a view cannot be shown.
+#[derive(Debug)]
+pub(super) struct Fault {
+    /// The part that is wrong, as in JSON.
+    pub part: &'static str,
+    /// What is wrong with it; nothing where it is the plane, whose two parameters must differ and be among those that can
+    /// be followed.
+    pub error: Option<ModelError>,
+}
+
+impl Say for Fault {
+    fn say(&self) -> Sentence {
+        let names = || curves::PARAMETERS.map(Parameter::field).join(", ");
+        let plane = || said("plane: two different ones of {names}", &[("names", &names())]);
+        self.error.as_ref().map_or_else(plane, Say::say)
+    }
 }
 
 impl Default for View {
@@ -120,7 +138,7 @@ impl View {
             let scaling = view.scenario.scaling;
             view.scenario.set_device(device, scaling)?;
         }
-        view.check().map_err(|(_, reason)| reason)?;
+        view.check().map_err(|fault| fault.say())?;
         Ok(view)
     }
 
@@ -135,19 +153,28 @@ impl View {
         serde_json::to_string(self).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
     }
 
-    /// Checks everything. An error names the part that is wrong, as in JSON, and says why.
-    pub(super) fn check(&self) -> Result<(), (&'static str, Sentence)> {
-        let part = |name| move |error: ModelError| (name, error.into());
+    /// One with all that there need not be, so that every place of its JSON can be seen; what it says is of no interest.
+    pub(super) fn complete() -> Self {
+        let mut view = Self::default();
+        view.scenario.device = Some(Device::default());
+        view.scenario.scaling = ElectricalScaling::Consistent;
+        view.scenario.model.residual_moment = true;
+        view.design.search.third = Some(Side::of(Dimension::TipMass));
+        view
+    }
+
+    /// Checks everything.
+    pub(super) fn check(&self) -> Result<(), Fault> {
+        let part = |part| move |error: ModelError| Fault { part, error: Some(error) };
         self.scenario.validate().map_err(part("scenario"))?;
         self.sweep.check().map_err(part("sweep"))?;
         self.design.check().map_err(part("design"))?;
         self.live.check().map_err(part("live"))?;
         counted("step", self.step, (1, STEPS)).map_err(part("step"))?;
+        counted("figure", self.figure.into(), figures::NUMBERS).map_err(part("figure"))?;
         let [x, y] = self.plane;
         if x == y || ![x, y].iter().all(|axis| curves::PARAMETERS.contains(axis)) {
-            let allowed = curves::PARAMETERS.map(Parameter::field).join(", ");
-            let reason = said("plane: two different ones of {names}", &[("names", &allowed)]);
-            return Err(("plane", reason));
+            return Err(Fault { part: "plane", error: None });
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use super::{Problem, unknown};
 use crate::app::bench;
 use crate::app::view::View;
 use crate::model::{Device, Dimension, ModelError};
-use crate::sentence::Sentence;
+use crate::sentence::{Say as _, Sentence};
 
 /// The entries of these names as text; names that links do not have are left out.
 pub fn entries(view: &View, names: &[&'static str]) -> Vec<(&'static str, String)> {
@@ -26,10 +26,13 @@ pub fn edit(view: &View, name: &str, text: &str) -> Result<View, Problem> {
     let fields = fields();
     let field = fields.iter().find(|field| field.name == name);
     let field = field.ok_or_else(|| problem(unknown()))?;
-    let (new, mut value) = (field.read(text).map_err(problem)?, view.to_value());
-    field.try_out(value.clone(), &new).map_err(problem)?;
+    let mut value = view.to_value();
+    let new = field.read(text, &value).map_err(problem)?;
     field.set(&mut value, &new);
     let mut edited = View::from_value(value).map_err(|error| problem(error.into()))?;
+    if let Some(allowed) = edited.check().err().and_then(|fault| field.allowed(&fault)) {
+        return Err(problem(allowed));
+    }
     if let Some(device) = edited_device(view, name, &edited) {
         let device = device.map_err(|error| problem(error.into()))?;
         let scaling = view.scenario.scaling;
@@ -45,7 +48,7 @@ pub fn edit(view: &View, name: &str, text: &str) -> Result<View, Problem> {
     if edited.tab != view.tab {
         edited.enlarged = None;
     }
-    edited.check().map_err(|(_, reason)| problem(reason))?;
+    edited.check().map_err(|fault| problem(fault.say()))?;
     Ok(edited)
 }
 

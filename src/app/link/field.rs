@@ -1,54 +1,20 @@
-//! The entries a link can have: where each stands in the JSON of a view, and what it may be.
+//! The entries a link can have: the leaves of a view's JSON, named by the last parts of their places. What each may be is
+//! known to the view alone, which is asked by trying.
 
 use serde_json::{Map, Value};
 
-use super::number;
-use crate::app::lessons::STEPS;
-use crate::app::view::View;
-use crate::app::view::design::{FREQUENCIES, POWERS};
-use crate::app::view::live::{KICKS, SPEEDS, WINDOWS};
-use crate::dynamics::attractors::sweep::Dwell;
+use crate::app::view::{Fault, View};
 use crate::export::number::shortest;
-use crate::model::{Dimension, ForceLaw, MAX_MODES, Parameter};
-use crate::questions::find::GENERATIONS;
-use crate::questions::input::one_of;
-use crate::questions::sweep::COUNTS;
-use crate::scenario::END_TIME;
-use crate::sentence::{Say as _, Sentence, said};
+use crate::model::{ForceLaw, ModelError};
+use crate::questions::input::{FieldError, one_of};
+use crate::sentence::{Say, Sentence, allowed, said};
 
 /// Where the device's dimensions stand.
 const DEVICE: &str = "/scenario/device";
-/// What a limit may be.
-const LIMITS: (f64, f64) = (1e-12, 1e12);
 /// Left out of names: what stands there is known well enough by its last name.
 const SILENT: [&str; 4] = ["/scenario/parameters/", "/scenario/model/", "/scenario/device/", "/scenario/"];
-
-/// What an entry may be.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
-    /// A number in this range, with its unit.
-    Number((f64, f64), &'static str),
-    /// The load's resistance: a positive number, or `open`.
-    Resistance,
-    /// Excitation periods a second.
-    Speed,
-    /// A whole number in this range.
-    Whole(usize, usize),
-    /// `true` or `false`.
-    Flag,
-    /// A word; the view says which there are.
-    Word,
-    /// Two words.
-    Words,
-    /// Numbers in this range, as many as given or any number.
-    Numbers(Option<usize>, (f64, f64)),
-    /// `quadratic`, `exact`, or `taylor5` with its degree.
-    Force,
-    /// A word, or `threshold:first` with its resonance.
-    Quantity,
-    /// `paper`: the paper's device, so that it is known that there is one.
-    Device,
-}
+/// The version of a scenario is that of the link.
+const VERSION: &str = "/scenario/version";
 
 /// An entry.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,85 +23,47 @@ pub(super) struct Field {
     pub name: String,
     /// Its place in the JSON of a view.
     pub pointer: String,
-    kind: Kind,
 }
 
-/// All entries, in the order in which they are written.
+/// All entries, in the order in which they are written: that of the fields of a view, and behind those of its device the
+/// device itself.
 pub(super) fn fields() -> Vec<Field> {
-    let mut fields = Vec::new();
-    let mut add = |pointer: &str, kind| {
+    let text = serde_json::to_string(&View::complete()).unwrap_or_default();
+    let mut pointers = Vec::new();
+    leaves(&serde_json::from_str(&text).unwrap_or_default(), "", &mut pointers);
+    pointers.retain(|pointer| pointer != VERSION);
+    // A map of JSON knows no order, its text does.
+    pointers.sort_by_cached_key(|pointer| {
+        let names = pointer.split('/').filter(|name| name.parse::<usize>().is_err());
+        names.fold(0, |at, name| at + text[at..].find(&format!("\"{name}\":")).unwrap_or(0))
+    });
+    let behind = pointers.iter().rposition(|pointer| pointer.starts_with(DEVICE)).map_or(0, |last| last + 1);
+    pointers.insert(behind, DEVICE.to_owned());
+    let named = |pointer: String| {
         let known = SILENT.iter().find_map(|prefix| pointer.strip_prefix(prefix));
-        let name = known.unwrap_or(pointer).trim_start_matches('/').replace('/', ".");
-        fields.push(Field { name, pointer: pointer.to_owned(), kind });
+        let name = known.unwrap_or(&pointer).trim_start_matches('/').replace('/', ".");
+        Field { name, pointer }
     };
-    for parameter in Parameter::ALL {
-        let pointer = format!("/scenario/parameters/{}", parameter.field());
-        add(&pointer, Kind::Number(parameter.range(), ""));
+    pointers.into_iter().map(named).collect()
+}
+
+/// Gathers the places of what holds nothing else; a list of numbers or words is one.
+fn leaves(value: &Value, place: &str, found: &mut Vec<String>) {
+    match value {
+        Value::Object(entries) => {
+            entries.iter().for_each(|(name, entry)| leaves(entry, &format!("{place}/{name}"), found));
+        }
+        Value::Array(parts) if parts.iter().any(Value::is_object) => {
+            parts.iter().enumerate().for_each(|(i, part)| leaves(part, &format!("{place}/{i}"), found));
+        }
+        _ => found.push(place.to_owned()),
     }
-    add("/scenario/model/modes", Kind::Whole(1, MAX_MODES));
-    add("/scenario/model/force", Kind::Force);
-    add("/scenario/model/residual_moment", Kind::Flag);
-    add("/scenario/t_end", Kind::Number(END_TIME, ""));
-    add("/scenario/initial", Kind::Numbers(None, (-1e6, 1e6)));
-    for dimension in Dimension::ALL {
-        let number = Kind::Number(dimension.range(), dimension.fact().unit);
-        let kind = if dimension == Dimension::Resistance { Kind::Resistance } else { number };
-        add(&format!("{DEVICE}/{}", dimension.field()), kind);
-    }
-    add("/scenario/device/repelling", Kind::Flag);
-    add("/scenario/device/ceramic", Kind::Word);
-    add(DEVICE, Kind::Device);
-    add("/scenario/scaling", Kind::Word);
-    add("/tab", Kind::Word);
-    add("/map", Kind::Word);
-    add("/layer", Kind::Word);
-    add("/sweep/parameter", Kind::Word);
-    add("/sweep/range", Kind::Numbers(Some(2), (f64::MIN, f64::MAX)));
-    add("/sweep/count", Kind::Whole(COUNTS.0, COUNTS.1));
-    add("/sweep/dwell/discarded", Kind::Whole(Dwell::DISCARDED.0, Dwell::DISCARDED.1));
-    add("/sweep/dwell/kept", Kind::Whole(Dwell::KEPT.0, Dwell::KEPT.1));
-    add("/sweep/output", Kind::Word);
-    add("/plane", Kind::Words);
-    add("/figure", Kind::Whole(2, 12));
-    add("/enlarged", Kind::Word);
-    add("/design/page", Kind::Word);
-    add("/design/dimensionless", Kind::Flag);
-    add("/design/holds_acceleration", Kind::Flag);
-    add("/design/watched", Kind::Word);
-    add("/design/logarithmic", Kind::Flag);
-    add("/design/window", Kind::Numbers(Some(2), FREQUENCIES));
-    add("/design/least", Kind::Number(POWERS, "W"));
-    add("/design/limits/voltage", Kind::Numbers(Some(2), LIMITS));
-    add("/design/limits/gap", Kind::Number((LIMITS.0, 1.0), ""));
-    add("/design/limits/deflection", Kind::Number(LIMITS, ""));
-    add("/design/limits/slope", Kind::Number(LIMITS, ""));
-    add("/design/mode", Kind::Whole(1, MAX_MODES));
-    add("/design/resonance", Kind::Word);
-    add("/design/quantity", Kind::Quantity);
-    add("/design/search/aim", Kind::Word);
-    for side in ["sides/0", "sides/1", "third"] {
-        add(&format!("/design/search/{side}/dimension"), Kind::Word);
-        add(&format!("/design/search/{side}/range"), Kind::Numbers(Some(2), (0.0, f64::MAX)));
-    }
-    add("/design/search/generations", Kind::Whole(GENERATIONS.0, GENERATIONS.1));
-    add("/live/trace", Kind::Word);
-    add("/live/speed", Kind::Speed);
-    add("/live/periods", Kind::Whole(WINDOWS.0, WINDOWS.1));
-    add("/live/kick", Kind::Number(KICKS, ""));
-    add("/lesson", Kind::Word);
-    add("/step", Kind::Whole(1, STEPS));
-    add("/lang", Kind::Word);
-    add("/dark", Kind::Flag);
-    add("/contrast", Kind::Flag);
-    add("/projector", Kind::Flag);
-    add("/beam_moves", Kind::Flag);
-    fields
 }
 
 impl Field {
     /// Whether this says that there is a device.
     pub(super) fn is_device(&self) -> bool {
-        self.kind == Kind::Device
+        self.pointer == DEVICE
     }
 
     /// Whether this is one of a device's dimensions.
@@ -168,16 +96,59 @@ impl Field {
         }
     }
 
-    /// Whether a view, given as JSON, takes this value; otherwise what is allowed.
-    pub(super) fn try_out(&self, mut view: Value, value: &Value) -> Result<(), Sentence> {
+    /// The view given as JSON with this value in its place.
+    fn with(&self, view: &Value, value: &Value) -> Result<View, FieldError> {
+        let mut view = view.clone();
         self.set(&mut view, value);
-        View::from_value(view).map(|_| ()).map_err(|error| {
-            if error.allowed.is_empty() {
-                return error.say();
+        View::from_value(view)
+    }
+
+    /// Text as a value that has its place in a view, given as JSON; otherwise what is allowed. Whether the view can be shown
+    /// with it is another question.
+    pub(super) fn read(&self, text: &str, view: &Value) -> Result<Value, Sentence> {
+        let mut problem = said("allowed is {word}", &[("word", &"paper")]);
+        for value in self.meanings(text.trim()) {
+            match self.with(view, &value) {
+                Ok(_) => return Ok(value),
+                Err(error) if error.allowed.is_empty() => problem = error.problem,
+                Err(error) => {
+                    let words = one_of(error.allowed.iter().map(|word| (*word).to_owned()));
+                    problem = said("allowed are {words}", &[("words", &words)]);
+                }
             }
-            let words = one_of(error.allowed.iter().map(|word| (*word).to_owned()));
-            said("allowed are {words}", &[("words", &words)])
+        }
+        Err(match self.range(view) {
+            Some((range, whole)) if whole || number(text.trim()).is_some() => range,
+            Some((range, _)) => said("not a number; {allowed}", &[("allowed", &range)]),
+            None if self.name == "force" => laws(),
+            None => problem,
         })
+    }
+
+    /// What a text can mean.
+    fn meanings(&self, text: &str) -> Vec<Value> {
+        if self.is_device() {
+            return (text == "paper").then(|| Value::Object(Map::new())).into_iter().collect();
+        }
+        let meant = |word: &str| number(word).unwrap_or_else(|| Value::from(word));
+        let mut meanings: Vec<Value> = text.parse().map(Value::Bool).into_iter().collect();
+        meanings.extend((self.is_open_circuit(text)).then_some(Value::Null));
+        meanings.extend(number(text));
+        // Blanks or commas may stand between the parts of a list.
+        let words: Vec<&str> = text.split([' ', ',']).filter(|word| !word.is_empty()).collect();
+        if words.len() > 1 {
+            meanings.push(words.into_iter().map(meant).collect());
+        }
+        // One of several things with what it holds: `taylor5`, `threshold:first`.
+        let digits = text.trim_end_matches(|letter: char| letter.is_ascii_digit()).len();
+        let (name, held) = text.split_once(':').unwrap_or_else(|| text.split_at(digits));
+        meanings.push(Value::Object(Map::from_iter([(name.to_owned(), meant(held))])));
+        meanings.push(Value::from(text));
+        meanings
+    }
+
+    fn is_open_circuit(&self, text: &str) -> bool {
+        self.name == "resistance" && text == "open"
     }
 
     /// A value as text.
@@ -186,71 +157,59 @@ impl Field {
             Value::Null => "open".to_owned(),
             Value::Bool(flag) => flag.to_string(),
             Value::String(word) => word.clone(),
-            Value::Number(number) if matches!(self.kind, Kind::Whole(..)) => number.to_string(),
+            Value::Number(number) if number.is_u64() => number.to_string(),
             Value::Number(number) => shortest(number.as_f64().unwrap_or_default()),
             Value::Array(values) => {
                 let texts: Vec<String> = values.iter().map(|value| self.write(value)).collect();
                 texts.join(" ")
             }
             Value::Object(_) if self.is_device() => "paper".to_owned(),
-            Value::Object(quantity) if self.kind == Kind::Quantity => quantity
+            Value::Object(choice) => choice
                 .iter()
-                .map(|(name, of)| format!("{name}:{}", of.as_str().unwrap_or_default()))
+                .map(|(name, held)| match held {
+                    Value::String(of) => format!("{name}:{of}"),
+                    held => format!("{name}{held}"),
+                })
                 .collect(),
-            Value::Object(law) => law.iter().map(|(name, degree)| format!("{name}{degree}")).collect(),
         }
     }
 
-    /// Text as a value; otherwise what is wrong with it.
-    pub(super) fn read(&self, text: &str) -> Result<Value, Sentence> {
-        match self.kind {
-            Kind::Number(range, unit) => number::read(text, range, &number::range(unit)).map(Value::from),
-            Kind::Resistance if text == "open" => Ok(Value::Null),
-            Kind::Resistance => {
-                let allowed = |from: &str, to: &str| {
-                    said("allowed are {from} to {to} ohm, or open", &[("from", &from), ("to", &to)])
-                };
-                number::read(text, Dimension::Resistance.range(), &allowed).map(Value::from)
-            }
-            Kind::Speed => {
-                let allowed = |from: &str, to: &str| {
-                    said("allowed are {from} to {to} periods a second", &[("from", &from), ("to", &to)])
-                };
-                number::read(text, SPEEDS, &allowed).map(Value::from)
-            }
-            Kind::Whole(minimum, maximum) => match text.trim().parse::<usize>() {
-                Ok(value) if (minimum..=maximum).contains(&value) => Ok(Value::from(value)),
-                _ => Err(said(
-                    "allowed are whole numbers from {from} to {to}",
-                    &[("from", &minimum), ("to", &maximum)],
-                )),
-            },
-            Kind::Flag => match text {
-                "true" => Ok(Value::Bool(true)),
-                "false" => Ok(Value::Bool(false)),
-                _ => Err(said("allowed are true and false", &[])),
-            },
-            Kind::Word => Ok(Value::from(text)),
-            Kind::Words => Ok(words(text).map(Value::from).collect()),
-            Kind::Numbers(count, range) => {
-                let allowed = number::range("");
-                let numbers: Result<Vec<f64>, Sentence> =
-                    words(text).map(|word| number::read(word, range, &allowed)).collect();
-                match (numbers?, count) {
-                    (numbers, Some(count)) if numbers.len() != count => {
-                        Err(said("needs {count} numbers", &[("count", &count)]))
+    /// What a number may be, and whether it is a whole one: what the check of a view says of one that is far too large.
+    fn range(&self, view: &Value) -> Option<(Sentence, bool)> {
+        let far = [Value::from(f64::MAX), Value::from(u32::MAX), Value::from(u8::MAX)];
+        far.iter().find_map(|value| {
+            let fault = self.with(view, value).ok()?.check().err()?;
+            Some((self.allowed(&fault)?, matches!(fault.error, Some(ModelError::Count { .. }))))
+        })
+    }
+
+    /// What this entry may be, where a view's fault is that it is out of its range.
+    pub(super) fn allowed(&self, fault: &Fault) -> Option<Sentence> {
+        let (field, range) = match fault.error.as_ref()? {
+            ModelError::OutOfRange { field, minimum, maximum, unit, .. }
+            | ModelError::NotFinite { field, minimum, maximum, unit } => {
+                let (from, to) = (shortest(*minimum), shortest(*maximum));
+                let range = match self.name.as_str() {
+                    "resistance" => {
+                        said("allowed are {from} to {to} ohm, or open", &[("from", &from), ("to", &to)])
                     }
-                    (numbers, _) => Ok(Value::from(numbers)),
-                }
+                    "live.speed" => {
+                        said("allowed are {from} to {to} periods a second", &[("from", &from), ("to", &to)])
+                    }
+                    _ => allowed(&from, &(to + unit)),
+                };
+                (field.as_str(), range)
             }
-            Kind::Force => force(text),
-            Kind::Quantity => Ok(match text.split_once(':') {
-                Some((name, of)) => Value::Object(Map::from_iter([(name.to_owned(), Value::from(of))])),
-                None => Value::from(text),
-            }),
-            Kind::Device if text == "paper" => Ok(Value::Object(Map::new())),
-            Kind::Device => Err(said("allowed is {word}", &[("word", &"paper")])),
-        }
+            ModelError::Count { field: "taylor degree", .. } => ("force", laws()),
+            ModelError::Count { field, minimum, maximum, .. } => {
+                let ends: [(&str, &dyn Say); 2] = [("from", minimum), ("to", maximum)];
+                (*field, said("allowed are whole numbers from {from} to {to}", &ends))
+            }
+            _ => return None,
+        };
+        let own =
+            self.is_part_of(fault.part) && (self.name == field || self.name.ends_with(&format!(".{field}")));
+        own.then_some(range)
     }
 }
 
@@ -260,23 +219,12 @@ fn insert(view: &mut Value, parent: &str, key: &str, value: Value) {
     }
 }
 
-/// Blanks or commas may stand between the parts of a list.
-fn words(text: &str) -> impl Iterator<Item = &str> {
-    text.split([' ', ',']).filter(|word| !word.is_empty())
+/// A finite number.
+fn number(text: &str) -> Option<Value> {
+    let whole = || text.parse::<u64>().ok().map(Value::from);
+    whole().or_else(|| text.parse().ok().filter(|number: &f64| number.is_finite()).map(Value::from))
 }
 
-fn force(text: &str) -> Result<Value, Sentence> {
-    if matches!(text, "quadratic" | "exact") {
-        return Ok(Value::from(text));
-    }
-    let degree = text.strip_prefix("taylor").and_then(|degree| degree.parse().ok()).map(ForceLaw::Taylor);
-    match degree.map(ForceLaw::validate) {
-        Some(Ok(ForceLaw::Taylor(degree))) => {
-            Ok(Value::Object(Map::from_iter([("taylor".to_owned(), Value::from(degree))])))
-        }
-        _ => Err(said(
-            "allowed are quadratic, taylor2 to taylor{degree} and exact",
-            &[("degree", &ForceLaw::MAX_DEGREE)],
-        )),
-    }
+fn laws() -> Sentence {
+    said("allowed are quadratic, taylor2 to taylor{degree} and exact", &[("degree", &ForceLaw::MAX_DEGREE)])
 }

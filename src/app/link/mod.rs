@@ -4,15 +4,14 @@
 //! that is special about what it shows, and means the same in a later version that opens with something else. What is
 //! not usable is reported and left at its usual value; everything else is loaded.
 //!
-//! `app::link` turns a view into a fragment and back by way of the view's JSON: `link/field.rs` lists where each entry
-//! stands and what it may be. A new field of `View` needs a line there; a test compares that list with the JSON of a
-//! view, and the test that sends 1,000 random views there and back names every field. A link leaves out what is as in
-//! the paper, not as in the view that the page opens with, so that it means the same in a later version; a test holds
-//! two old links to that.
+//! `app::link` turns a view into a fragment and back by way of the view's JSON: an entry is a leaf of it, and what it may
+//! be is what the view takes when it is read and checked (`link/field.rs`). So a new field of `View` is in links by itself,
+//! with the range of its check; the test that sends 1,000 random views there and back names every field. A link leaves out
+//! what is as in the paper, not as in the view that the page opens with, so that it means the same in a later version; a
+//! test holds two old links to that.
 
 mod entry;
 mod field;
-mod number;
 
 #[cfg(test)]
 mod tests;
@@ -24,7 +23,7 @@ use serde_json::Value;
 use super::view::View;
 use crate::app::text::{fill, say};
 use crate::scenario::Scenario;
-use crate::sentence::{Sentence, said};
+use crate::sentence::{Say as _, Sentence, said};
 pub use entry::{edit, entries};
 use field::{Field, fields};
 
@@ -102,34 +101,31 @@ pub fn read(fragment: &str, present: &View) -> (View, Vec<Problem>) {
     let plain = usual.to_value();
     let (mut given, mut problems, mut recognised) = (Vec::<Given<'_>>::new(), Vec::new(), false);
     let fragment = fragment.trim().trim_start_matches('#').as_bytes();
-    for (name, text) in form_urlencoded::parse(fragment).take(MOST_ENTRIES) {
+    for (position, (name, text)) in form_urlencoded::parse(fragment).take(MOST_ENTRIES).enumerate() {
+        let mut wrong = |reason| problems.push((position, Problem::new(&name, &text, reason)));
         if name == "v" {
             recognised = true;
-            if text.parse().is_ok_and(|version: u32| (1..=VERSION).contains(&version)) {
-                continue;
+            if !text.parse().is_ok_and(|version: u32| (1..=VERSION).contains(&version)) {
+                wrong(said("this page knows version {version}", &[("version", &VERSION)]));
             }
-            let reason = said("this page knows version {version}", &[("version", &VERSION)]);
-            problems.push(Problem::new(&name, &text, reason));
             continue;
         }
         let Some((place, field)) = fields.iter().enumerate().find(|(_, field)| field.name == name) else {
-            problems.push(Problem::new(&name, &text, unknown()));
+            wrong(unknown());
             continue;
         };
         recognised = true;
-        match field.read(&text).and_then(|value| field.try_out(plain.clone(), &value).map(|()| value)) {
+        match field.read(&text, &plain) {
             Ok(value) => {
                 given.retain(|other| other.place != place);
-                given.push(Given { field, place, value, text: text.into_owned() });
+                given.push(Given { field, place, position, value, text: text.into_owned() });
             }
-            Err(reason) => problems.push(Problem::new(&name, &text, reason)),
+            Err(reason) => wrong(reason),
         }
     }
-    if !recognised {
-        return (present.clone(), problems);
-    }
-    let view = agree(given, usual, &plain, &mut problems);
-    (view, problems)
+    let view = if recognised { agree(given, usual, &plain, &mut problems) } else { present.clone() };
+    problems.sort_by_key(|(position, _)| *position);
+    (view, problems.into_iter().map(|(_, problem)| problem).collect())
 }
 
 /// What is wrong with an entry of another name.
@@ -137,18 +133,25 @@ fn unknown() -> Sentence {
     said("not a name this page knows", &[])
 }
 
-/// An entry that is usable by itself.
+/// An entry of the right kind.
 #[derive(Clone)]
 struct Given<'a> {
     field: &'a Field,
-    /// Its place among all of them.
+    /// Its place among all of them, and in the link.
     place: usize,
+    position: usize,
     value: Value,
     text: String,
 }
 
-/// The view of entries each of which is usable, less those that do not go together with the others.
-fn agree(mut given: Vec<Given<'_>>, usual: View, plain: &Value, problems: &mut Vec<Problem>) -> View {
+/// The view of entries each of which is of the right kind, less those that are out of their range or do not go together with
+/// the others.
+fn agree(
+    mut given: Vec<Given<'_>>,
+    usual: View,
+    plain: &Value,
+    problems: &mut Vec<(usize, Problem)>,
+) -> View {
     let assemble = |given: &[Given<'_>]| {
         let mut value = plain.clone();
         for Given { field, value: new, .. } in given {
@@ -160,19 +163,28 @@ fn agree(mut given: Vec<Given<'_>>, usual: View, plain: &Value, problems: &mut V
     given.sort_by_key(|given| given.place);
     loop {
         let view = assemble(&given);
-        let Err((part, reason)) = view.check() else { return view };
-        let suspects: Vec<usize> = (0..given.len()).filter(|i| given[*i].field.is_part_of(part)).collect();
+        let Err(fault) = view.check() else { return view };
+        let mut blame = |given: &mut Vec<Given<'_>>, i: usize, reason| {
+            let Given { field, text, position, .. } = given.remove(i);
+            problems.push((position, Problem::new(&field.name, &text, reason)));
+        };
+        let own = |i: usize| Some((i, given[i].field.allowed(&fault)?));
+        if let Some((i, allowed)) = (0..given.len()).find_map(own) {
+            blame(&mut given, i, allowed);
+            continue;
+        }
+        let suspects: Vec<usize> =
+            (0..given.len()).filter(|i| given[*i].field.is_part_of(fault.part)).collect();
         let mends = |i: &usize| {
             let others: Vec<_> = (0..given.len()).filter(|j| j != i).map(|j| given[j].clone()).collect();
-            !matches!(assemble(&others).check(), Err((still, _)) if still == part)
+            !matches!(assemble(&others).check(), Err(still) if still.part == fault.part)
         };
         let culprits = suspects.iter().rev().find(|i| mends(i)).map_or(suspects.clone(), |one| vec![*one]);
         if culprits.is_empty() {
             return usual;
         }
         for i in culprits.into_iter().rev() {
-            let Given { field, text, .. } = given.remove(i);
-            problems.push(Problem::new(&field.name, &text, reason.clone()));
+            blame(&mut given, i, fault.say());
         }
     }
 }

@@ -172,7 +172,7 @@ pub(super) fn view() -> impl Strategy<Value = View> {
     let plane = (0..5_usize, 1..5_usize)
         .prop_map(|(x, step)| [curves::PARAMETERS[x], curves::PARAMETERS[(x + step) % 5]]);
     let lesson = (option::of(select(LessonId::all().collect::<Vec<_>>())), 1..=STEPS);
-    (scenario(), front, sweep(), plane, 2..=12_u8, (design(), live()), looks, lesson)
+    (scenario(), front, sweep(), plane, 1..=12_u8, (design(), live()), looks, lesson)
         .prop_map(
             |(scenario, (tab, map, layer, enlarged), sweep, plane, figure, (design, live), looks, lesson)| {
                 View {
