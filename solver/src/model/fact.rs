@@ -114,7 +114,7 @@ macro_rules! numbers {
         #[serde(default, deny_unknown_fields)]
         pub struct $Set {
             $(
-                #[doc = concat!($explanation, " [", $unit, "]")]
+                #[doc = concat!($explanation, " \\[", $unit, "\\]")]
                 $(#[$($attribute)*])*
                 pub $field: f64,
                 $($(#[$($about)*])* pub $other: $Kind $(<$Held>)?,)*

@@ -108,7 +108,7 @@ pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length)
                 return Truth::Periodic(Box::new(orbit));
             }
             // A slow transient may look steady; chaos does not come closer at every look.
-            let closer = earlier.as_ref().is_none_or(|earlier: &Vec<f64>| off(&state) < 0.95 * off(earlier));
+            let closer = earlier.as_ref().is_none_or(|earlier: &Vec<f64>| off(&state) < off(earlier));
             always_closer[periods - 1] &= closer;
             leaving |= orbit.stable() && always_closer[periods - 1];
             let before = &last[last.len() - 1 - periods * (LONGEST / periods)];
