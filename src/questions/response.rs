@@ -62,10 +62,11 @@ pub struct ResponseCurve {
     pub cut: bool,
 }
 
-/// The branches of the forced motion of the device of `scenario` and the doubled ones that leave them, as [`branches`].
+/// The forced motion of the device of `scenario` while a parameter goes through `range`, and the doubled ones that leave it;
+/// `moved` is that parameter, and what of the base's motion stays meanwhile.
 ///
 /// # Errors
-/// As [`branches`].
+/// [`OrbitError`] when the device is not valid at the low end, or has no forced motion at either end.
 pub fn response(
     scenario: &Scenario,
     moved: (Parameter, Shaking),
