@@ -66,7 +66,7 @@ fn response_sentences(session: &Session, figure: &Figure, shown: &Shown) -> Vec<
 }
 
 fn motion(shown: &Shown) -> String {
-    let volts = shown.run.summary.map_or(0.0, |summary| summary.v_rms);
+    let volts = shown.run.summary.map_or(0.0, |summary| summary.measures.v_rms);
     let volts = significant(volts, 3);
     match (shown.run.outcome(), shown.run.recurrence.and_then(|found| found.period)) {
         (Outcome::Escaped { time }, _) => fill(
@@ -91,7 +91,7 @@ fn theory_against_run(shown: &Shown) -> Option<String> {
         return None;
     }
     let theory = SteadyState::new(&shown.run.system).ok()?.voltage.root_mean_square();
-    let off = 100.0 * (theory / shown.run.summary?.v_rms - 1.0);
+    let off = 100.0 * (theory / shown.run.summary?.measures.v_rms - 1.0);
     let (volts, percent) = (significant(theory, 3), significant(off.abs(), 2));
     let values: [(&str, &dyn Say); 2] = [("volts", &volts), ("percent", &percent)];
     Some(if off >= 0.0 {
@@ -133,18 +133,21 @@ fn stability(session: &Session, figure: &Figure, shown: &Shown) -> Option<String
 
 /// What the exact magnet force makes of the same run.
 fn exact_law(session: &Session, shown: &Shown) -> Option<String> {
-    let quadratic = shown.run.summary?.v_peak;
+    let quadratic = shown.run.summary?.measures.v_peak;
     match session.comparison.exact.as_ref()? {
         ExactRun::Computing(_) => Some(tr("(The exact magnet force is being computed.)").to_owned()),
         ExactRun::Done(Outcome::Completed, Some(summary)) if shown.run.outcome() == Outcome::Completed => {
             Some(fill(
                 "Peak voltage at the end {quadratic} V; with the exact magnet force {exact} V.",
-                &[("quadratic", &significant(quadratic, 3)), ("exact", &significant(summary.v_peak, 3))],
+                &[
+                    ("quadratic", &significant(quadratic, 3)),
+                    ("exact", &significant(summary.measures.v_peak, 3)),
+                ],
             ))
         }
         ExactRun::Done(Outcome::Completed, Some(summary)) => Some(fill(
             "With the exact magnet force the same start stays bounded: peak voltage {volts} V at the end.",
-            &[("volts", &significant(summary.v_peak, 3))],
+            &[("volts", &significant(summary.measures.v_peak, 3))],
         )),
         ExactRun::Done(..) | ExactRun::Failed => None,
     }

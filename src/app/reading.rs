@@ -117,9 +117,9 @@ fn measured(shown: &Shown, verdict: Option<&Verdict>) -> Vec<String> {
         _ => return Vec::new(),
     };
     let system = &shown.run.system;
-    let v_rms = verdict.and_then(|verdict| verdict.v_rms).unwrap_or(summary.v_rms);
+    let v_rms = verdict.and_then(|verdict| verdict.v_rms).unwrap_or(summary.measures.v_rms);
     let lowest = verdict.and_then(|verdict| verdict.tip_over_gap).map(|(low, _)| low);
-    let lowest = lowest.unwrap_or(summary.tip_min / system.equilibrium.gap);
+    let lowest = lowest.unwrap_or(summary.measures.tip.0 / system.equilibrium.gap);
     let mut facts = vec![fill("{volts} V rms", &[("volts", &significant(v_rms, 3))])];
     let kappa = system.parameters.kappa;
     if kappa > 0.0 {
@@ -200,5 +200,7 @@ fn theories(shown: &Shown, boundaries: &Boundaries) -> Option<String> {
 fn force_law(shown: &Shown) -> Option<Warning> {
     let run = &shown.run;
     let completed = run.outcome() == Outcome::Completed;
-    run.summary.filter(|_| completed).and_then(|summary| force_law_warning(&run.system, summary.tip_min))
+    run.summary
+        .filter(|_| completed)
+        .and_then(|summary| force_law_warning(&run.system, summary.measures.tip.0))
 }

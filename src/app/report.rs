@@ -35,10 +35,26 @@ struct Answer<'a> {
     end_time: f64,
     final_state: &'a [f64],
     steps: usize,
-    summary: Option<Summary>,
+    summary: Option<Summarised>,
     recurrence: Option<Recurrence>,
     strobe_count: usize,
     last_strobe: Option<&'a PhasePoint>,
+}
+
+/// A summary, whose tip has two names of its own, too.
+#[derive(Serialize)]
+struct Summarised {
+    #[serde(flatten)]
+    summary: Summary,
+    tip_min: f64,
+    tip_max: f64,
+}
+
+impl From<Summary> for Summarised {
+    fn from(summary: Summary) -> Self {
+        let (tip_min, tip_max) = summary.measures.tip;
+        Self { summary, tip_min, tip_max }
+    }
 }
 
 /// The answer of `harvester.state()`.
@@ -55,7 +71,7 @@ pub(super) fn state(view: &View, session: &Session, studies: &Studies) -> String
         end_time: shown.run.trajectory.end_time(),
         final_state: shown.run.trajectory.final_state(),
         steps: shown.run.trajectory.len(),
-        summary: shown.run.summary,
+        summary: shown.run.summary.map(Summarised::from),
         recurrence: shown.run.recurrence,
         strobe_count: shown.run.strobe.len(),
         last_strobe: shown.run.strobe.last(),

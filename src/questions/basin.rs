@@ -77,7 +77,7 @@ pub struct AttractorAnswer {
     /// Mean electrical power kappa v^2 (dimensionless); null when it ends.
     pub power: Option<f64>,
     /// Lowest and highest tip displacement, in beam lengths; null when it ends.
-    pub tip: Option<[f64; 2]>,
+    pub tip: Option<(f64, f64)>,
     /// A start (length 2N + 1) that leads to it, on it if it is periodic.
     pub start: Vec<f64>,
     /// Cells that lead to it.
@@ -89,12 +89,12 @@ pub struct AttractorAnswer {
 impl AttractorAnswer {
     fn new(attractor: Attractor) -> Self {
         let cell = attractor.cell;
-        let lasts = cell.lasts();
+        let measures = cell.lasts().then_some(cell.measures);
         Self {
             motion: class(cell.motion),
-            v_rms: lasts.then_some(cell.v_rms),
-            power: lasts.then_some(cell.power),
-            tip: lasts.then_some([cell.tip.0, cell.tip.1]),
+            v_rms: measures.map(|measures| measures.v_rms),
+            power: measures.map(|measures| measures.power),
+            tip: measures.map(|measures| measures.tip),
             start: attractor.start,
             cells: attractor.cells,
             fraction: attractor.fraction,
@@ -342,8 +342,7 @@ mod tests {
     use crate::scheduler::Finding;
 
     fn signature(motion: Motion) -> Signature {
-        let (v_rms, power, tip) = (0.0, 0.0, (0.0, 0.0));
-        Signature { cell: Cell { motion, v_rms, power, tip, v_peak: 0.0, slope: 0.0 }, states: Vec::new() }
+        Signature { cell: Cell::new(motion, None), states: Vec::new() }
     }
 
     #[test]

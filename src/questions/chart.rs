@@ -95,8 +95,10 @@ impl Chart {
         failed(chart.failure())?;
         Ok(match self.quantity {
             Quantity::Motion => Values::Classes(cells(&chart, |cell| Some(class(cell.motion)))),
-            Quantity::Power => Values::Numbers(cells(&chart, |cell| cell.lasts().then_some(cell.power))),
-            _ => Values::Numbers(cells(&chart, |cell| cell.lasts().then_some(cell.v_rms))),
+            Quantity::Power => {
+                Values::Numbers(cells(&chart, |cell| cell.lasts().then_some(cell.measures.power)))
+            }
+            _ => Values::Numbers(cells(&chart, |cell| cell.lasts().then_some(cell.measures.v_rms))),
         })
     }
 }

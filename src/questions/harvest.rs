@@ -173,7 +173,7 @@ impl Harvest {
             ("down", study.swept_pieces(Direction::Down)),
         ];
         let points = curves.iter().flat_map(|(_, pieces)| pieces.iter().flatten());
-        let least = self.least.unwrap_or(0.5 * points.map(|point| point.power).fold(0.0, f64::max));
+        let least = self.least.unwrap_or(0.5 * points.map(|point| point.measures.power).fold(0.0, f64::max));
         let band = |of, bounds: Bounds, pieces: &[Vec<HarvestPoint>]| {
             let curves = powers(pieces);
             let within_limits = usable(&bounds.powers_within(pieces), least);
@@ -354,14 +354,17 @@ impl HarvestStudy {
 
     /// A branch's points in SI units, each with whether it is stable.
     pub fn branch_points(&self, curve: &ResponseCurve) -> Vec<(HarvestPoint, bool)> {
-        let point =
-            |point: &ResponsePoint| (HarvestPoint::of_branch(&self.plant, point), point.multiplier < 1.0);
+        let point = |point: &ResponsePoint| {
+            (HarvestPoint::new(&self.plant, point.value, &point.measures), point.multiplier < 1.0)
+        };
         curve.points.iter().map(point).collect()
     }
 
     /// What the sweep has reached so far, in the order of its way; `None` where the motion ended.
     pub fn swept(&self, direction: Direction) -> Vec<Option<HarvestPoint>> {
-        let point = |point: &SweepPoint| (!point.ended).then(|| HarvestPoint::of_sweep(&self.plant, point));
+        let point = |point: &SweepPoint| {
+            (!point.ended).then(|| HarvestPoint::new(&self.plant, point.value, &point.measures))
+        };
         self.sweeps.points(direction).iter().map(point).collect()
     }
 
@@ -429,7 +432,7 @@ impl HarvestStudy {
         let mut changes = Vec::new();
         for curve in [Sampled::Swept(Direction::Up), Sampled::Swept(Direction::Down), Sampled::FromRest] {
             let samples = self.sampled(curve);
-            let power = |sample: &Option<HarvestPoint>| sample.map_or(0.0, |point| point.power);
+            let power = |sample: &Option<HarvestPoint>| sample.map_or(0.0, |point| point.measures.power);
             let highest = samples.iter().map(power).fold(0.0, f64::max);
             let mut jumps: Vec<(usize, f64)> = samples
                 .windows(2)
@@ -512,8 +515,7 @@ impl HarvestStudy {
     fn start_at(&self, index: usize, signature: Option<Signature>) -> Option<(Motion, HarvestPoint)> {
         let cell = signature?.cell;
         cell.demand()?;
-        let volts = (cell.v_rms, cell.v_peak);
-        let point = HarvestPoint::new(&self.plant, self.omega(index), volts, cell.tip, cell.slope);
+        let point = HarvestPoint::new(&self.plant, self.omega(index), &cell.measures);
         Some((cell.motion, point))
     }
 }

@@ -101,7 +101,7 @@ impl Question for Load {
             forced: study.forced().unwrap_or_default().to_vec(),
             reached: study.reached().to_vec(),
             reached_best: best(reached()),
-            reached_best_within_limits: best(reached().filter(|point| bounds.allows(&point.asked()))),
+            reached_best_within_limits: best(reached().filter(|point| bounds.allows(&point.measures))),
             best_frequency: study.best_frequencies().to_vec(),
         })
     }

@@ -6,7 +6,7 @@ use super::checks::{count, state};
 use super::error::RequestError;
 use super::question::Question;
 use crate::dynamics::orbits::period_map::MOST_PERIODS;
-use crate::dynamics::{self, Instability};
+use crate::dynamics::{self, Instability, Measures};
 use crate::scenario::Scenario;
 use crate::scheduler::Budget;
 
@@ -43,12 +43,9 @@ pub struct OrbitAnswer {
     pub stable: bool,
     /// How it is unstable; null when it is stable.
     pub instability: Option<Instability>,
-    /// Root mean square of the voltage (V).
-    pub v_rms: f64,
-    /// Mean electrical power kappa v^2 (dimensionless).
-    pub power: f64,
-    /// Lowest and highest tip displacement, in beam lengths.
-    pub tip: [f64; 2],
+    /// Means and extremes.
+    #[serde(flatten)]
+    pub measures: Measures,
     /// Largest defect of periodicity, as a displacement over the gap s0 (dimensionless).
     pub residual: f64,
     /// Relative error of the product of the multipliers against Liouville's formula; null when rounding hides it.
@@ -77,9 +74,7 @@ impl Question for Orbit {
             multipliers: orbit.multipliers.iter().map(|mu| [mu.re, mu.im]).collect(),
             stable,
             instability,
-            v_rms: orbit.measures.v_rms,
-            power: orbit.measures.power,
-            tip: [orbit.measures.tip_min, orbit.measures.tip_max],
+            measures: orbit.measures,
             residual: orbit.residual,
             liouville_defect: orbit.liouville_defect,
             state: orbit.state,

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::dynamics::bifurcations::branch::MOST_EFFORT;
 use crate::dynamics::orbits::period_map::MOST_PERIODS;
 use crate::dynamics::{
-    Bifurcation, Branch, BranchEnd, BranchPoint, Course, Instability, Orbit, OrbitError, follow_branch,
-    follow_doubled,
+    Bifurcation, Branch, BranchEnd, BranchPoint, Course, Instability, Measures, Orbit, OrbitError,
+    follow_branch, follow_doubled,
 };
 use crate::model::{ModelError, Parameter, Shaking};
 use crate::scenario::Scenario;
@@ -24,16 +24,9 @@ const SAME: f64 = 1e-5;
 pub struct ResponsePoint {
     /// The parameter's value.
     pub value: f64,
-    /// Root mean square of the voltage (V).
-    pub v_rms: f64,
-    /// Mean electrical power kappa v^2 (dimensionless).
-    pub power: f64,
-    /// Lowest and highest tip displacement, in beam lengths.
-    pub tip: (f64, f64),
-    /// Largest |v| (V).
-    pub v_peak: f64,
-    /// Largest |slope| at the tip (rad).
-    pub slope: f64,
+    /// Means and extremes.
+    #[serde(flatten)]
+    pub measures: Measures,
     /// Modulus of the largest multiplier over the branch's period.
     pub multiplier: f64,
 }
@@ -284,14 +277,9 @@ pub(in crate::questions) fn curve(followed: &Followed) -> ResponseCurve {
 }
 
 pub(in crate::questions) fn point(point: &BranchPoint) -> ResponsePoint {
-    let measures = &point.measures;
     ResponsePoint {
         value: point.value,
-        v_rms: measures.v_rms,
-        power: measures.power,
-        tip: (measures.tip_min, measures.tip_max),
-        v_peak: measures.v_peak,
-        slope: measures.slope,
+        measures: point.measures,
         multiplier: point.multipliers.first().map_or(0.0, |mu| mu.norm()),
     }
 }
@@ -329,7 +317,8 @@ mod tests {
             })
             .expect("a stable doubled branch passes the figure's frequency");
         let share = (8.0969 - pair[0].value) / (pair[1].value - pair[0].value);
-        let v_rms = pair[0].v_rms + share * (pair[1].v_rms - pair[0].v_rms);
+        let volts = |i: usize| pair[i].measures.v_rms;
+        let v_rms = volts(0) + share * (volts(1) - volts(0));
         assert!((v_rms / 14.1783 - 1.0).abs() < 2e-3, "{v_rms}");
     }
 

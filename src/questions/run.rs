@@ -3,7 +3,7 @@
 use crate::dynamics::attractors::poincare::{PhasePoint, Recurrence, recurrence};
 use crate::dynamics::integration::Step;
 use crate::dynamics::integration::summary::{Collector, Envelope, Summary};
-use crate::dynamics::{Collocation, Outcome, RunError, Settings, Trajectory};
+use crate::dynamics::{Collocation, Measures, Outcome, RunError, Settings, Trajectory};
 use crate::model::ReducedSystem;
 use crate::scenario::Scenario;
 
@@ -133,9 +133,13 @@ impl Recorder {
 
     fn finish(self, system: ReducedSystem) -> Run {
         let Self { trajectory, strobe, collector } = self;
-        let summary = collector.summary(trajectory.propagator()).or_else(|| whole_run(&trajectory, &system));
+        let summary = collector
+            .summary(trajectory.propagator(), system.parameters.kappa)
+            .or_else(|| whole_run(&trajectory, &system));
         let recurrence = match (trajectory.outcome, &summary) {
-            (Outcome::Completed, Some(summary)) => recurrence(&strobe, summary.v_peak, summary.dv_dt_peak),
+            (Outcome::Completed, Some(summary)) => {
+                recurrence(&strobe, summary.measures.v_peak, summary.dv_dt_peak)
+            }
             _ => None,
         };
         let envelope = collector.envelope().clone();
@@ -150,29 +154,19 @@ fn whole_run(trajectory: &Trajectory, system: &ReducedSystem) -> Option<Summary>
         return None;
     }
     let n = system.modes.len();
-    let mut summary = Summary {
-        from: 0.0,
-        to,
-        v_rms: 0.0,
-        v_peak: 0.0,
-        dv_dt_peak: 0.0,
-        tip_min: f64::INFINITY,
-        tip_max: f64::NEG_INFINITY,
-        slope: 0.0,
-        v_peak_whole: 0.0,
-    };
+    let tip = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut measures = Measures { tip, ..Measures::default() };
+    let (mut square, mut dv_dt_peak) = (0.0, 0.0_f64);
     const SAMPLES: usize = 2000;
     trajectory.sample(0.0, to, SAMPLES, |_, state| {
         let (v, tip) = (state[2 * n], system.tip_displacement(state));
-        summary.v_rms += v * v / SAMPLES as f64;
-        summary.v_peak = summary.v_peak.max(v.abs());
-        summary.dv_dt_peak = summary.dv_dt_peak.max(system.voltage_rate(state).abs());
-        summary.tip_min = summary.tip_min.min(tip);
-        summary.tip_max = summary.tip_max.max(tip);
+        square += v * v / SAMPLES as f64;
+        dv_dt_peak = dv_dt_peak.max(system.voltage_rate(state).abs());
+        measures.v_peak = measures.v_peak.max(v.abs());
+        measures.tip = (measures.tip.0.min(tip), measures.tip.1.max(tip));
         let slopes = system.modes.iter().zip(state).map(|(mode, q)| mode.tip_slope * q);
-        summary.slope = summary.slope.max(slopes.sum::<f64>().abs());
+        measures.slope = measures.slope.max(slopes.sum::<f64>().abs());
     });
-    summary.v_rms = summary.v_rms.sqrt();
-    summary.v_peak_whole = summary.v_peak;
-    Some(summary)
+    let measures = measures.with_mean_square(square, system.parameters.kappa);
+    Some(Summary { from: 0.0, to, measures, dv_dt_peak, v_peak_whole: measures.v_peak })
 }

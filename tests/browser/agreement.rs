@@ -44,7 +44,8 @@ fn a_moved_slider_shows_what_the_native_core_computes() {
     for (shown, native) in page_state.iter().zip(run.trajectory.final_state()) {
         assert!((shown - native).abs() <= 1e-9 * native.abs().max(1.0), "{shown} instead of {native}");
     }
-    let (shown, native) = (result["summary"]["v_rms"].as_f64(), run.summary.map(|summary| summary.v_rms));
+    let (shown, native) =
+        (result["summary"]["v_rms"].as_f64(), run.summary.map(|summary| summary.measures.v_rms));
     let (shown, native) = (shown.expect("the page has a voltage"), native.expect("so has the core"));
     assert!((shown / native - 1.0).abs() < 1e-9, "{shown} V rms instead of {native}");
     page.close();

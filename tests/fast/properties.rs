@@ -1,7 +1,6 @@
 //! Whatever is asked within (and outside) the allowed ranges ends in finite numbers or in one clear line.
 
-use harvester_lab::dynamics::Outcome;
-use harvester_lab::dynamics::RunError;
+use harvester_lab::dynamics::{Measures, Outcome, RunError};
 use harvester_lab::model::{ForceLaw, MAX_MODES, Parameter, ParameterSet, state_dimension};
 use harvester_lab::questions::{Run, solve};
 use harvester_lab::scenario::{ModelChoice, Scenario};
@@ -81,9 +80,10 @@ fn assert_finite(run: &Run, t_end: f64) {
     });
     assert!(run.strobe.iter().all(|point| point.v.is_finite() && point.dv_dt.is_finite()));
     if let Some(s) = run.summary {
-        let numbers = [s.from, s.to, s.v_rms, s.v_peak, s.dv_dt_peak, s.tip_min, s.tip_max, s.v_peak_whole];
+        let Measures { v_rms, v_peak, tip: (low, high), .. } = s.measures;
+        let numbers = [s.from, s.to, v_rms, v_peak, s.dv_dt_peak, low, high, s.v_peak_whole];
         assert!(numbers.iter().all(|value| value.is_finite()), "{s:?}");
-        assert!(s.tip_min <= s.tip_max && s.v_rms <= s.v_peak * (1.0 + 1e-9) && s.from <= s.to, "{s:?}");
+        assert!(low <= high && v_rms <= v_peak * (1.0 + 1e-9) && s.from <= s.to, "{s:?}");
     }
 }
 

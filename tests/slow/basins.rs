@@ -32,7 +32,10 @@ fn basins(scenario: Scenario, question: Basin) -> Fallible<(BasinStudy, Vec<Attr
     for attractor in &attractors {
         let reached = reach(&system, &attractor.start, Effort::cell())?.cell();
         assert!(reached.motion.same_class(&attractor.cell.motion), "{attractor:?}: {reached:?}");
-        assert!((reached.v_rms - attractor.cell.v_rms).abs() <= 0.05 * reached.v_rms, "{attractor:?}");
+        assert!(
+            (reached.measures.v_rms - attractor.cell.measures.v_rms).abs() <= 0.05 * reached.measures.v_rms,
+            "{attractor:?}"
+        );
     }
     Ok((basin, attractors))
 }
@@ -73,7 +76,7 @@ fn figure_4_has_a_torus_a_stable_forced_motion_and_escape() -> TestResult {
     let middle = basin.shown(6, 6).flatten().ok_or("a motion")?;
     let attractor = &attractors[middle];
     assert_eq!(attractor.cell.motion, periodic);
-    assert!((attractor.cell.v_rms / forced.measures.v_rms - 1.0).abs() < 1e-9, "{attractor:?}");
+    assert!((attractor.cell.measures.v_rms / forced.measures.v_rms - 1.0).abs() < 1e-9, "{attractor:?}");
     for (a, b) in attractor.start.iter().zip(&forced.state) {
         assert!((a - b).abs() < 1e-7, "{attractor:?}");
     }
@@ -82,7 +85,7 @@ fn figure_4_has_a_torus_a_stable_forced_motion_and_escape() -> TestResult {
     let middle = basin.shown(2, 2).flatten().ok_or("a motion")?;
     assert_eq!(from_rest[middle].cell.motion, torus);
     let there = attractors.iter().find(|attractor| attractor.cell.motion == torus).ok_or("a torus")?;
-    assert!((from_rest[middle].cell.v_rms / there.cell.v_rms - 1.0).abs() < 0.01);
+    assert!((from_rest[middle].cell.measures.v_rms / there.cell.measures.v_rms - 1.0).abs() < 0.01);
     Ok(())
 }
 
@@ -96,7 +99,7 @@ fn figure_9_has_one_motion_of_period_2_although_both_its_phases_are_reached() ->
     assert_eq!(with_motion(&attractors, Motion::Escape { time: 0.0 }).len(), 1);
     // Another program's voltage.
     let found = attractors.iter().find(|attractor| attractor.number == double[0]).ok_or("period 2")?;
-    assert!((found.cell.v_rms - 14.1783).abs() < 1e-4, "{found:?}");
+    assert!((found.cell.measures.v_rms - 14.1783).abs() < 1e-4, "{found:?}");
     // After an even number of periods, starts of this basin are on one of its two stroboscopic states or the other.
     let mut phases = BTreeSet::new();
     for (column, row) in (0..11).flat_map(|row| (0..11).map(move |column| (column, row))) {

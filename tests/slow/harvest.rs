@@ -98,12 +98,16 @@ fn figure_9_harvests_what_another_integration_says_and_so_many_times_the_linear_
     let doubled = found.reached.harvest.ok_or("a lasting motion")?;
     let expected = PAPER.power(&scenario.parameters, 4000, 1000);
     let watts = plant.units.watts(expected);
-    assert!((doubled.power / watts - 1.0).abs() < 1e-6, "{} {watts}", doubled.power);
+    assert!((doubled.measures.power / watts - 1.0).abs() < 1e-6, "{} {watts}", doubled.measures.power);
     // V^2/R of the printed load, by another program's 14.1783 V.
-    assert!((doubled.power / (14.1783_f64.powi(2) / 7_631_732.0) - 1.0).abs() < 1e-4, "{}", doubled.power);
+    assert!(
+        (doubled.measures.power / (14.1783_f64.powi(2) / 7_631_732.0) - 1.0).abs() < 1e-4,
+        "{}",
+        doubled.measures.power
+    );
     let bare = Equations::of(&plant.without_magnets()?);
     let linear = bare.power(&scenario.parameters, 4000, 1000);
-    assert!((found.linear.power / plant.units.watts(linear) - 1.0).abs() < 1e-6);
+    assert!((found.linear.measures.power / plant.units.watts(linear) - 1.0).abs() < 1e-6);
     let ratio = found.reached_gain.ok_or("a gain")?;
     assert!((ratio / (expected / linear) - 1.0).abs() < 1e-6, "{ratio} {}", expected / linear);
     // The forced motion coexists, unstable.
@@ -138,24 +142,24 @@ fn every_harvest_keeps_its_energy() -> TestResult {
         let forced = found.forced.map(|forced| forced.harvest);
         for harvest in [Some(found.linear), forced, found.reached.harvest].into_iter().flatten() {
             assert!(harvest.defect < 1e-8, "{harvest:?}");
-            let sum = harvest.power + harvest.viscous + harvest.dielectric;
+            let sum = harvest.measures.power + harvest.viscous + harvest.dielectric;
             assert!((sum / harvest.input - 1.0).abs() < 1e-8, "{harvest:?}");
             let efficiency = harvest.efficiency.ok_or("input")?;
-            assert!((efficiency - harvest.power / harvest.input).abs() < 1e-12 && efficiency < 1.0);
+            assert!((efficiency - harvest.measures.power / harvest.input).abs() < 1e-12 && efficiency < 1.0);
         }
         assert!(found.reached.harvest.is_some(), "{scenario:?}");
     }
     // The dielectric takes tan delta omega C of what the load takes kappa of.
     let found = operating(&lossy)?.linear;
     let share = 0.02 * lossy.parameters.omega * lossy.parameters.c / lossy.parameters.kappa;
-    assert!((found.dielectric / found.power / share - 1.0).abs() < 1e-12);
+    assert!((found.dielectric / found.measures.power / share - 1.0).abs() < 1e-12);
     // The doubled motion has the largest line of its voltage at half of the frequency, and half the conductance there.
     let reached = operating(&lossy)?.reached;
     let harvest = reached.harvest.ok_or("it lasts")?;
     assert_eq!(reached.motion, Motion::Periodic { periods: 2 });
     let hertz = reached.dielectric_frequency.ok_or("a loss")?;
     assert!((hertz / lossy.device()?.frequency - 0.5).abs() < 1e-12, "{hertz}");
-    assert!((harvest.dielectric / harvest.power / (0.5 * share) - 1.0).abs() < 1e-9, "{harvest:?}");
+    assert!((harvest.dielectric / harvest.measures.power / (0.5 * share) - 1.0).abs() < 1e-9, "{harvest:?}");
     // Integrated with that conductance in all, from rest.
     let mut whole = lossy.parameters;
     whole.kappa += 0.02 * 0.5 * whole.omega * whole.c;
@@ -165,7 +169,7 @@ fn every_harvest_keeps_its_energy() -> TestResult {
     let (mut sum, count) = (0.0, 4096);
     run.sample(600.0 - 20.0 * period, 600.0, count, |_, state| sum += state[4] * state[4]);
     let v_rms = (sum / count as f64).sqrt();
-    assert!((v_rms / harvest.v_rms - 1.0).abs() < 2e-3, "{v_rms} {}", harvest.v_rms);
+    assert!((v_rms / harvest.measures.v_rms - 1.0).abs() < 2e-3, "{v_rms} {}", harvest.measures.v_rms);
     assert_eq!(operating(&figure_9())?.reached.dielectric_frequency, None);
     Ok(())
 }
@@ -180,17 +184,20 @@ fn the_linear_device_is_its_closed_form_and_its_best_load_the_admittance() -> Te
     // As a current source with an inner admittance, which no amplitude of a mode enters.
     let source = Source::new(&bare)?;
     let closed = plant.units.watts(source.power(scenario.parameters.kappa, 0.0));
-    assert!((found.power / closed - 1.0).abs() < 1e-9);
+    assert!((found.measures.power / closed - 1.0).abs() < 1e-9);
     // The same motion integrated.
     let balance = Balance::of(&bare, &response.state(0.0), 1)?.ok_or("it lasts")?;
     let orbit = Orbit::find(&bare, None, 1)?.measures;
     let slope = found.demand.slope.ok_or("a slope")?;
-    for (a, b) in [(slope, balance.slope), (slope, orbit.slope), (found.demand.v_peak, orbit.v_peak)] {
+    for (a, b) in [(slope, balance.measures.slope), (slope, orbit.slope), (found.demand.v_peak, orbit.v_peak)]
+    {
         assert!((a / b - 1.0).abs() < 1e-7, "{a} {b}");
     }
-    for (a, b) in
-        [(found.input, balance.input), (found.viscous, balance.viscous), (found.power, balance.electrical)]
-    {
+    for (a, b) in [
+        (found.input, balance.input),
+        (found.viscous, balance.viscous),
+        (found.measures.power, balance.measures.power),
+    ] {
         assert!((a / plant.units.watts(b) - 1.0).abs() < 1e-8, "{a} {b}");
     }
     let power = |kappa: f64| {
@@ -243,7 +250,7 @@ fn the_linear_device_at_its_best_is_shaken_as_hard_whatever_amplitude_that_takes
     there.parameters.omega = units.omega(best.frequency);
     there.parameters.beta = units.beta_of(acceleration(&scenario), there.parameters.omega);
     let found = operating(&there)?.linear;
-    assert!((found.power / best.power - 1.0).abs() < 1e-9, "{found:?} {best:?}");
+    assert!((found.measures.power / best.power - 1.0).abs() < 1e-9, "{found:?} {best:?}");
     assert!((found.demand.tip.1 / best.tip - 1.0).abs() < 1e-9);
     // Ten times the acceleration would take more amplitude than a run is allowed, and gives a hundred times the power.
     let mut hard = scenario.clone();

@@ -109,7 +109,7 @@ fn figure_4_is_a_torus_and_says_what_coexists() -> TestResult {
     assert!(verdict.basic.is_some());
     // Started on the forced motion, it is the torus from rest that coexists.
     let orbit = Orbit::find(&system, None, 1)?;
-    assert!((beside.v_rms / orbit.measures.v_rms - 1.0).abs() < 1e-9);
+    assert!((beside.measures.v_rms / orbit.measures.v_rms - 1.0).abs() < 1e-9);
     let verdict = verdict_on(&system, &orbit.state, 605.0)?;
     assert_eq!(verdict.motion, PERIOD_1);
     let [beside] = verdict.coexists[..] else { return Err("one motion coexists".into()) };
@@ -202,7 +202,7 @@ fn chaos_of_forty_thousand_periods_is_not_named_where_a_torus_attracts() -> Test
     let torus = |motion: Motion, v_rms: Option<f64>| {
         motion == Motion::Quasiperiodic && v_rms.is_some_and(|v_rms| (v_rms - 2.948).abs() < 0.01)
     };
-    let met = verdict.coexists.iter().any(|other| torus(other.motion, Some(other.v_rms)));
+    let met = verdict.coexists.iter().any(|other| torus(other.motion, Some(other.measures.v_rms)));
     assert!(torus(verdict.suspected, verdict.v_rms) || met, "{:?} {:?}", verdict.motion, verdict.coexists);
     Ok(())
 }

@@ -20,7 +20,7 @@ pub use bifurcations::{
     trace_tongue,
 };
 pub use integration::{
-    Collocation, ESCAPE_DISPLACEMENT, IntegrationError, NODES, Ongoing, Outcome, Reach, RunError, Settings,
-    Trajectory,
+    Collocation, ESCAPE_DISPLACEMENT, IntegrationError, Measures, NODES, Ongoing, Outcome, Reach, RunError,
+    Settings, Trajectory,
 };
 pub use orbits::{Balance, Instability, Orbit, OrbitError, OrbitSolver, PeriodMap};

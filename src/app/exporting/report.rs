@@ -15,7 +15,7 @@ use crate::dynamics::Outcome;
 use crate::export::Figure;
 use crate::export::report::{Report, Words, html};
 use crate::model::limits::Standing;
-use crate::model::{Demand, Dimension, ForceLaw, Parameter};
+use crate::model::{Dimension, ForceLaw, Parameter};
 use crate::questions::harvest::HarvestStudy;
 use crate::scenario::Scenario;
 use crate::scheduler::{Asked as _, Study as _};
@@ -95,9 +95,7 @@ impl App {
         let (Some(summary), Some(safety)) = (summary, Safety::of(&self.view, &self.session)) else {
             return Vec::new();
         };
-        let tip = (summary.tip_min, summary.tip_max);
-        let demand = Demand { v_peak: summary.v_peak, tip, slope: Some(summary.slope) };
-        let checks = safety.checks(&demand);
+        let checks = safety.checks(&summary.measures.demand());
         checks.iter().map(|check| (in_words(check), check.standing == Standing::Within)).collect()
     }
 }

@@ -79,7 +79,7 @@ fn name(attractor: &Attractor) -> String {
         Motion::Escape { .. } => tr("escape").to_owned(),
         Motion::Contact { .. } => tr("contact").to_owned(),
         Motion::Undecided { .. } => tr("undecided").to_owned(),
-        motion => format!("{}, {} V", say(&motion), significant(attractor.cell.v_rms, 3)),
+        motion => format!("{}, {} V", say(&motion), significant(attractor.cell.measures.v_rms, 3)),
     }
 }
 
@@ -163,13 +163,15 @@ fn start(scenario: &Scenario) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dynamics::Measures;
     use crate::dynamics::attractors::motion::Cell;
 
     #[test]
     fn a_class_has_its_colour_of_the_charts_and_two_of_a_class_differ() {
         let tokens = theme::tokens_in(&egui::Context::default());
         let of = |number: usize, motion: Motion| {
-            let cell = Cell { motion, v_rms: 1.0, power: 1.0, tip: (-1.0, 1.0), v_peak: 1.0, slope: 0.0 };
+            let measures = Measures { v_rms: 1.0, power: 1.0, tip: (-1.0, 1.0), v_peak: 1.0, slope: 0.0 };
+            let cell = Cell { motion, measures };
             Attractor { cell, start: vec![0.0; 5], number, cells: 1, fraction: 0.2 }
         };
         let (one, two) = (Motion::Periodic { periods: 1 }, Motion::Periodic { periods: 2 });

@@ -128,7 +128,7 @@ fn highest(chart: &MotionChart, layer: Quantity) -> f64 {
 }
 
 fn value(cell: &Cell, layer: Quantity) -> f64 {
-    if layer == Quantity::Power { cell.power } else { cell.v_rms }
+    if layer == Quantity::Power { cell.measures.power } else { cell.measures.v_rms }
 }
 
 /// Cells of one pixel, or such that can be hatched.
@@ -210,8 +210,8 @@ fn record(context: &Context<'_>, plot: &egui_plot::PlotUi<'_>, ranges: [(f64, f6
     let value = |column, row| {
         let cell = chart.cell(column, row)??;
         Some(match layer {
-            Quantity::VRms => number::exact(cell.v_rms),
-            Quantity::Power => number::exact(factor * cell.power),
+            Quantity::VRms => number::exact(cell.measures.v_rms),
+            Quantity::Power => number::exact(factor * cell.measures.power),
             _ => say(&cell.motion),
         })
     };

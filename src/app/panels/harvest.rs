@@ -121,7 +121,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
                     (Some(Safety(bounds)), Series::Linear) => Some(bounds.without_magnets()),
                     (safety, _) => safety.as_ref().map(|safety| safety.0),
                 };
-                let over = beyond(bounds, points, &HarvestPoint::asked, &place(side));
+                let over = beyond(bounds, points, &|point: &HarvestPoint| point.measures, &place(side));
                 drawn.push((Series::Beyond, tr("beyond a limit"), over));
             }
         }

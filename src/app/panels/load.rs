@@ -85,16 +85,20 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
     let best = best_frequencies(context);
     let forced: Vec<LoadPoint> = study.forced().unwrap_or_default().iter().flatten().copied().collect();
     let reached: Vec<LoadPoint> = study.reached().iter().flatten().filter(|p| p.stable).copied().collect();
+    let highest = forced
+        .iter()
+        .chain(&reached)
+        .map(|point| point.measures.power)
+        .fold(study.linear_best()[1], f64::max);
     let highest =
-        forced.iter().chain(&reached).map(|point| point.power).fold(study.linear_best()[1], f64::max);
-    let highest = best.iter().filter_map(|best| best.stable).map(|peak| peak.power).fold(highest, f64::max);
+        best.iter().filter_map(|best| best.stable).map(|peak| peak.measures.power).fold(highest, f64::max);
     let (factor, sign) = prefix(highest);
     let y = Axis::new(tr("power in the load"), "P").unit(format!("{sign}W"));
     let y = if view.design.logarithmic { y.logarithmic() } else { y };
     let x = Axis::new(tr("load"), "R").unit("Ω").logarithmic();
     let at =
         |resistance: f64, power: f64| PlotPoint::new(x.coordinate(resistance), y.coordinate(factor * power));
-    let place = |point: &LoadPoint| at(point.resistance, point.power);
+    let place = |point: &LoadPoint| at(point.resistance, point.measures.power);
     let mut drawn: Vec<(Series, &str, Vec<PlotPoint>)> = Vec::new();
     drawn.push((
         Series::Linear,
@@ -109,13 +113,13 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
     drawn.push((Series::Theory, tr("without magnets, best frequency"), linear));
     let stable: Vec<(f64, Peak)> =
         best.iter().filter_map(|best| best.stable.map(|peak| (best.resistance, peak))).collect();
-    let crest = |(resistance, peak): &(f64, Peak)| at(*resistance, peak.power);
+    let crest = |(resistance, peak): &(f64, Peak)| at(*resistance, peak.measures.power);
     drawn.push((Series::Best, tr("stable motions, best frequency"), stable.iter().map(crest).collect()));
     drawn.push((Series::Up, tr("reached"), reached.iter().map(place).collect()));
     let bounds = Safety::of(view, context.session).map(|safety| safety.0);
-    let over = beyond(bounds, &reached, &LoadPoint::asked, &place);
+    let over = beyond(bounds, &reached, &|point: &LoadPoint| point.measures, &place);
     drawn.push((Series::Beyond, tr("beyond a limit"), over));
-    let over = beyond(bounds, &stable, &|(_, peak)| peak.asked(), &crest);
+    let over = beyond(bounds, &stable, &|(_, peak)| peak.measures, &crest);
     drawn.push((Series::Beyond, tr("beyond a limit"), over));
     let own = Plant::new(&view.scenario).map_or(f64::NAN, |plant| plant.resistance());
     let colour = theme::tokens(ui).ruler;
@@ -130,7 +134,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
             plot_style::series(plot, *kind, name, line);
         }
         if let Some(optimum) = optimum {
-            let name = format!("{}: {}", with_unit(optimum.resistance, "Ω"), with_unit(optimum.power, "W"));
+            let name =
+                format!("{}: {}", with_unit(optimum.resistance, "Ω"), with_unit(optimum.measures.power, "W"));
             plot_style::special_point(plot, &name, place(&optimum));
         }
     });

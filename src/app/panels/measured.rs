@@ -15,6 +15,7 @@ use crate::app::view::design::{Page, Watched};
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Card, Icon, Series, chips, legend};
+use crate::dynamics::Measures;
 use crate::export::Pen;
 use crate::questions::harvest::HarvestStudy;
 
@@ -97,12 +98,14 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
             let points = study.branch_points(branch);
             for run in points.chunk_by(|a, b| a.1 == b.1).filter(|run| run[0].1) {
                 stable.push(
-                    run.iter().map(|(point, _)| PlotPoint::new(point.frequency, point.v_rms)).collect(),
+                    run.iter()
+                        .map(|(point, _)| PlotPoint::new(point.frequency, point.measures.v_rms))
+                        .collect(),
                 );
             }
         }
         let starts = study.from_rest().iter().filter_map(|start| start.flatten());
-        reached.extend(starts.map(|(_, point)| PlotPoint::new(point.frequency, point.v_rms)));
+        reached.extend(starts.map(|(_, point)| PlotPoint::new(point.frequency, point.measures.v_rms)));
     }
     plot_style::plot(ui, ("measured", file.name.as_str(), 1), &x, &y).include_y(0.0).show(ui, |plot| {
         plot_style::series(plot, Series::Linear, tr("without magnets"), &linear);
@@ -252,7 +255,7 @@ fn compared(context: &mut Context<'_>, ui: &mut Ui, file: &File) {
     if let Some((Ok(operating), true)) = found
         && let Some(harvest) = &operating.reached.harvest
     {
-        let (v_rms, v_peak) = (harvest.v_rms, harvest.demand.v_peak);
+        let Measures { v_rms, v_peak, .. } = harvest.measures;
         line(
             ui,
             fill(

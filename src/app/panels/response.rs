@@ -13,10 +13,10 @@ use crate::app::theme;
 use crate::app::view::{Output, Tab};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
-use crate::dynamics::Instability;
 use crate::dynamics::attractors::sweep::SweepPoint;
+use crate::dynamics::{Instability, Measures};
 use crate::model::ReducedSystem;
-use crate::questions::response::{ResponseCurve, ResponsePoint};
+use crate::questions::response::ResponseCurve;
 use crate::questions::sweep::{Direction, SweepStudy};
 use crate::scenario::Scenario;
 
@@ -61,16 +61,12 @@ impl Measure {
     }
 
     /// One value, or two where there is a range.
-    fn values(&self, v_rms: f64, power: f64, tip: (f64, f64)) -> Vec<f64> {
+    fn values(&self, measures: &Measures) -> Vec<f64> {
         match self.output {
-            Output::Voltage => vec![v_rms],
-            Output::Power => vec![self.microwatts * power],
-            Output::Tip => vec![tip.0 / self.gap, tip.1 / self.gap],
+            Output::Voltage => vec![measures.v_rms],
+            Output::Power => vec![self.microwatts * measures.power],
+            Output::Tip => vec![measures.tip.0 / self.gap, measures.tip.1 / self.gap],
         }
-    }
-
-    fn of(&self, point: &ResponsePoint) -> Vec<f64> {
-        self.values(point.v_rms, point.power, point.tip)
     }
 }
 
@@ -140,11 +136,7 @@ fn reached(
     which: impl Fn(&SweepPoint) -> bool,
 ) -> Vec<PlotPoint> {
     let values = |point: &SweepPoint| {
-        measure
-            .values(point.v_rms, point.power, point.tip)
-            .into_iter()
-            .map(move |y| (point.value, y))
-            .collect::<Vec<_>>()
+        measure.values(&point.measures).into_iter().map(move |y| (point.value, y)).collect::<Vec<_>>()
     };
     let points = study.points(direction).iter().filter(|point| !point.ended && which(point));
     points.flat_map(values).map(|(x, y)| PlotPoint::new(x, y)).collect()
@@ -156,7 +148,7 @@ fn lines(curve: &ResponseCurve, measure: &Measure) -> Vec<(Series, String, Vec<P
         1 => tr("forced motion").to_owned(),
         periods => fill("period {periods}", &[("periods", &periods)]),
     };
-    let sides = curve.points.first().map_or(0, |point| measure.of(point).len());
+    let sides = curve.points.first().map_or(0, |point| measure.values(&point.measures).len());
     let mut lines = Vec::new();
     for side in 0..sides {
         let mut rest = curve.points.as_slice();
@@ -164,7 +156,9 @@ fn lines(curve: &ResponseCurve, measure: &Measure) -> Vec<(Series, String, Vec<P
             let stable = first.multiplier < 1.0;
             let count = rest.iter().take_while(|point| (point.multiplier < 1.0) == stable).count();
             let reach = (count + 1).min(rest.len());
-            let line = rest[..reach].iter().map(|point| PlotPoint::new(point.value, measure.of(point)[side]));
+            let line = rest[..reach]
+                .iter()
+                .map(|point| PlotPoint::new(point.value, measure.values(&point.measures)[side]));
             let kind = if stable { Series::Stable } else { Series::Unstable };
             lines.push((kind, name.clone(), line.collect()));
             rest = &rest[count..];
@@ -181,7 +175,7 @@ fn marks(curve: &ResponseCurve, measure: &Measure) -> Vec<(String, [f64; 2])> {
         Instability::NeimarkSacker => "NS",
     };
     let place = |change: &crate::questions::response::Change| {
-        let y = measure.of(&change.point).first().copied().unwrap_or_default();
+        let y = measure.values(&change.point.measures).first().copied().unwrap_or_default();
         (name(change.kind).to_owned(), [change.point.value, y])
     };
     curve.changes.iter().map(place).collect()

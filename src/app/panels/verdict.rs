@@ -94,16 +94,11 @@ fn broken(context: &Context<'_>, shown: &Shown, verdict: Option<&Verdict>) -> Ve
     let summary = shown.run.summary.as_ref().filter(|_| lasts);
     let gap = shown.run.system.equilibrium.gap;
     let demand = summary.map(|summary| {
-        let own = || Demand {
-            v_peak: summary.v_peak,
-            tip: (summary.tip_min, summary.tip_max),
-            slope: Some(summary.slope),
-        };
         let found = verdict.and_then(|verdict| {
             let (low, high) = verdict.tip_over_gap?;
             Some(Demand { v_peak: verdict.v_peak?, tip: (gap * low, gap * high), slope: verdict.slope })
         });
-        found.unwrap_or_else(own)
+        found.unwrap_or_else(|| summary.measures.demand())
     });
     match (Safety::of(context.view, context.session), demand) {
         (Some(safety), Some(demand)) => safety.broken(&demand),

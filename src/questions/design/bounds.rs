@@ -2,6 +2,7 @@
 
 use super::Plant;
 use super::point::HarvestPoint;
+use crate::dynamics::Measures;
 use crate::model::{Demand, Limits, ModelError, Units};
 
 /// Limits with what they refer to.
@@ -13,17 +14,6 @@ pub struct Bounds {
     pub gap: Option<f64>,
     /// SI units of the device.
     pub units: Units,
-}
-
-/// What a motion asks of a device, in SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Asked {
-    /// Largest |v| (V).
-    pub v_peak: f64,
-    /// Lowest and highest tip displacement (mm).
-    pub tip: (f64, f64),
-    /// Largest |slope| at the tip (rad).
-    pub slope: f64,
 }
 
 impl Bounds {
@@ -41,20 +31,20 @@ impl Bounds {
         Self { gap: None, ..*self }
     }
 
-    fn demand(&self, asked: &Asked) -> Demand {
-        let Asked { v_peak, tip: (low, high), slope } = *asked;
-        let beam = self.units.millimetres(1.0);
-        Demand { v_peak, tip: (low / beam, high / beam), slope: Some(slope) }
+    /// Of a motion's numbers in SI units.
+    fn demand(&self, measures: &Measures) -> Demand {
+        let ((low, high), beam) = (measures.tip, self.units.millimetres(1.0));
+        Demand { tip: (low / beam, high / beam), ..measures.demand() }
     }
 
-    /// Whether a motion keeps them.
-    pub fn allows(&self, asked: &Asked) -> bool {
-        self.limits.allow(&self.demand(asked), self.gap)
+    /// Whether a motion with these numbers in SI units keeps them.
+    pub fn allows(&self, measures: &Measures) -> bool {
+        self.limits.allow(&self.demand(measures), self.gap)
     }
 
     /// What is left to the nearest limit (dimensionless, of that limit); negative beyond it.
-    pub fn margin(&self, asked: &Asked) -> f64 {
-        let checks = self.limits.checks(&self.demand(asked), self.gap);
+    pub fn margin(&self, measures: &Measures) -> f64 {
+        let checks = self.limits.checks(&self.demand(measures), self.gap);
         // What is no number stays so.
         let least = |least: f64, margin: f64| if least <= margin || least.is_nan() { least } else { margin };
         checks.iter().map(|check| check.margin).fold(f64::INFINITY, least)
@@ -68,7 +58,7 @@ impl Bounds {
             let mut part = Vec::new();
             let mut before: Option<([f64; 2], f64)> = None;
             for point in piece {
-                let (place, margin) = ([point.frequency, point.power], self.margin(&point.asked()));
+                let (place, margin) = ([point.frequency, point.measures.power], self.margin(&point.measures));
                 if let Some((last, left)) = before
                     && (left >= 0.0) != (margin >= 0.0)
                 {
@@ -101,11 +91,7 @@ mod tests {
         let gap = bounds.units.millimetres(bounds.gap.unwrap_or_default());
         let point = |frequency: f64, v_peak: f64, tip: f64| HarvestPoint {
             frequency,
-            v_peak,
-            power: 2.0 * frequency,
-            tip: (-tip, tip),
-            slope: 0.0,
-            v_rms: 0.0,
+            measures: Measures { v_peak, power: 2.0 * frequency, tip: (-tip, tip), ..Measures::default() },
             power_per_g2: 0.0,
         };
         // Up through 10 V halfway between 2 and 3 Hz, down again at 4.25 Hz; the gap never matters.
@@ -121,10 +107,10 @@ mod tests {
         let near = vec![point(1.0, 1.0, 0.25 * gap), point(2.0, 1.0, 0.75 * gap)];
         let parts = bounds.powers_within(std::slice::from_ref(&near));
         assert!(parts.len() == 1 && (parts[0][1][0] - 1.5).abs() < 1e-12, "{parts:?}");
-        let asked = near[1].asked();
+        let asked = near[1].measures;
         assert!(!bounds.allows(&asked) && bounds.without_magnets().allows(&asked));
         // The slope is the last to be met: 0.3 rad.
-        assert!(!bounds.without_magnets().allows(&Asked { slope: 0.31, ..asked }));
+        assert!(!bounds.without_magnets().allows(&Measures { slope: 0.31, ..asked }));
         assert!(bounds.powers_within(&[vec![point(1.0, 11.0, 0.0)]]).is_empty());
         Ok(())
     }

@@ -43,7 +43,7 @@ struct Place {
 
 impl Place {
     fn power(&self) -> f64 {
-        self.point.map_or(0.0, |point| point.power)
+        self.point.map_or(0.0, |point| point.measures.power)
     }
 
     /// Whether more than a `difference` in power (W), or an end, lies between this and another motion.
@@ -127,9 +127,7 @@ fn at_rest(plant: &Plant, omega: f64) -> Result<Place, DesignError> {
     let system = plant.scenario.model.system(set)?;
     let rest = vec![0.0; system.dimension()];
     let cell = reach(&system, &rest, Effort::cell())?.cell();
-    let point = cell
-        .demand()
-        .map(|_| HarvestPoint::new(plant, omega, (cell.v_rms, cell.v_peak), cell.tip, cell.slope));
+    let point = cell.lasts().then(|| HarvestPoint::new(plant, omega, &cell.measures));
     Ok(Place { omega, from: omega, point, state: None })
 }
 
@@ -145,6 +143,6 @@ fn swept(
     let course = SweepCourse { set, model: *model, parameter, shaking, start: &rest, dwell };
     let (points, state) = sweep(course, values, state)?;
     let last = points.last().filter(|point| !point.ended);
-    let point = last.map(|point| HarvestPoint::of_sweep(plant, point));
+    let point = last.map(|point| HarvestPoint::new(plant, point.value, &point.measures));
     Ok(Place { omega: values.last().copied().unwrap_or(from), from, point, state })
 }

@@ -160,9 +160,9 @@ pub fn evaluate(question: &FindQuestion, values: &[f64]) -> Result<Evaluation, D
                 return Ok(Evaluation::NOTHING);
             };
             let value = found.harvest.and_then(|harvest| match question.objective {
-                Objective::Voltage => Some(harvest.v_rms),
+                Objective::Voltage => Some(harvest.measures.v_rms),
                 Objective::PowerPerG2 => harvest.power_per_g2,
-                _ => Some(harvest.power),
+                _ => Some(harvest.measures.power),
             });
             Ok(Evaluation { value, violation, motion: Some(found.motion) })
         }
@@ -204,7 +204,7 @@ fn band(
             return Ok(Evaluation::NOTHING);
         };
         violation = violation.max(violated);
-        curve.push([frequency, found.harvest.map_or(0.0, |harvest| harvest.power)]);
+        curve.push([frequency, found.harvest.map_or(0.0, |harvest| harvest.measures.power)]);
     }
     Ok(Evaluation { value: Some(total(&usable(&[curve], least))), violation, motion: None })
 }

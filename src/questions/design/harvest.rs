@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::dielectric::{Settled, settle};
 use super::linear::linear_balance;
 use super::{DesignError, Plant};
-use crate::dynamics::{Balance, Effort, ForcedMotion, Motion};
+use crate::dynamics::{Balance, Effort, ForcedMotion, Measures, Motion};
 use crate::model::{Demand, ReducedSystem};
 use crate::scenario::Scenario;
 
@@ -16,14 +16,11 @@ const RECORD: usize = 512;
 /// What a steady motion delivers and what it costs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
 pub struct Harvest {
-    /// Root mean square of the voltage (V).
-    pub v_rms: f64,
-    /// Mean power in the load (W), V^2/R_eq.
-    pub power: f64,
-    /// The same over the square of the peak of the base's acceleration (W/g^2); `None` at rest.
+    /// Means and extremes in SI units: V, W (V^2/R_eq in the load), mm.
+    #[serde(flatten)]
+    pub measures: Measures,
+    /// The power over the square of the peak of the base's acceleration (W/g^2); `None` at rest.
     pub power_per_g2: Option<f64>,
-    /// Lowest and highest tip displacement from equilibrium (mm).
-    pub tip: (f64, f64),
     /// Mean power that the shaken base puts in (W).
     pub input: f64,
     /// Mean power lost in the material's damping (W).
@@ -44,20 +41,19 @@ impl Harvest {
         let p = &system.parameters;
         let units = &plant.units;
         let share = if p.kappa > 0.0 { plant.load / p.kappa } else { 0.0 };
-        let power = units.watts(share * balance.electrical);
+        let electrical = balance.measures.power;
+        let power = units.watts(share * electrical);
         let acceleration = units.acceleration(p.beta, p.omega);
-        let per_input = balance.electrical * share / balance.input;
+        let per_input = electrical * share / balance.input;
         Self {
-            v_rms: balance.v_rms,
-            power,
+            measures: Measures { power, ..plant.in_si(&balance.measures) },
             power_per_g2: (acceleration > 0.0).then(|| power / (acceleration * acceleration)),
-            tip: (units.millimetres(balance.tip.0), units.millimetres(balance.tip.1)),
             input: units.watts(balance.input),
             viscous: units.watts(balance.viscous),
-            dielectric: units.watts((1.0 - share) * balance.electrical),
+            dielectric: units.watts((1.0 - share) * electrical),
             efficiency: (balance.input > 0.0).then_some(per_input),
             defect: balance.defect(),
-            demand: Demand { v_peak: balance.v_peak, tip: balance.tip, slope: Some(balance.slope) },
+            demand: balance.measures.demand(),
         }
     }
 }
@@ -127,7 +123,8 @@ pub fn operating(scenario: &Scenario) -> Result<Operating, DesignError> {
         }),
     };
     let reached = lasting(&plant, &system, &initial)?;
-    let gain = |harvest: &Harvest| (linear.power > 0.0).then(|| harvest.power / linear.power);
+    let least = linear.measures.power;
+    let gain = |harvest: &Harvest| (least > 0.0).then(|| harvest.measures.power / least);
     let p = &system.parameters;
     Ok(Operating {
         frequency: plant.units.hertz(p.omega),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{DesignError, Interval, Plant};
-use crate::dynamics::Balance;
+use crate::dynamics::{Balance, Measures};
 use crate::model::ReducedSystem;
 use crate::scenario::Scenario;
 use crate::spacing::equally_spaced;
@@ -40,12 +40,14 @@ pub fn linear_balance(system: &ReducedSystem) -> Result<Balance, DesignError> {
     Ok(Balance {
         input: 0.5 * square * p.beta * input,
         viscous: 0.5 * p.alpha * viscous,
-        electrical: 0.5 * p.kappa * v_peak * v_peak,
         stored: 0.0,
-        v_rms: v_peak * std::f64::consts::FRAC_1_SQRT_2,
-        v_peak,
-        tip: (-tip, tip),
-        slope: slope(system, &response),
+        measures: Measures {
+            v_rms: v_peak * std::f64::consts::FRAC_1_SQRT_2,
+            v_peak,
+            power: 0.5 * p.kappa * v_peak * v_peak,
+            tip: (-tip, tip),
+            slope: slope(system, &response),
+        },
     })
 }
 

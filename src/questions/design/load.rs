@@ -6,11 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::dielectric::{Settled, settle};
 use super::linear::linear_peak;
 use super::peak::{Peak, highest};
-use super::{Asked, Bounds, DesignError, Plant};
+use super::{Bounds, DesignError, Plant};
 use crate::dynamics::Effort;
 use crate::dynamics::attractors::motion::Cell;
-use crate::dynamics::orbits::orbit::Measures;
-use crate::dynamics::{ForcedMotion, Motion, Orbit, OrbitError};
+use crate::dynamics::{ForcedMotion, Measures, Motion, Orbit, OrbitError};
 use crate::model::{Limits, ModelError, Parameter, ReducedSystem, Shaking};
 use crate::questions::response::{DOUBLINGS, Followed, branches};
 use crate::scenario::Scenario;
@@ -21,16 +20,9 @@ use crate::theory::{Source, TheoryError};
 pub struct LoadPoint {
     /// Load resistance (ohm).
     pub resistance: f64,
-    /// Root mean square of the voltage (V).
-    pub v_rms: f64,
-    /// Largest |v| (V).
-    pub v_peak: f64,
-    /// Mean power in the load (W).
-    pub power: f64,
-    /// Lowest and highest tip displacement (mm).
-    pub tip: (f64, f64),
-    /// Largest |slope| at the tip (rad).
-    pub slope: f64,
+    /// Means and extremes in SI units: V, W, mm.
+    #[serde(flatten)]
+    pub measures: Measures,
     /// Its class; unstable forced motions have period 1 as well.
     pub motion: Motion,
     /// Whether it attracts.
@@ -39,23 +31,7 @@ pub struct LoadPoint {
 
 impl LoadPoint {
     fn new(plant: &Plant, motion: Motion, stable: bool, measures: &Measures) -> Self {
-        let Measures { v_rms, v_peak, tip_min, tip_max, slope, .. } = *measures;
-        let tip = (plant.units.millimetres(tip_min), plant.units.millimetres(tip_max));
-        let (resistance, power) = (plant.resistance(), plant.watts(v_rms));
-        Self { resistance, v_rms, v_peak, power, tip, slope, motion, stable }
-    }
-
-    /// What it asks of the device.
-    pub fn asked(&self) -> Asked {
-        let Self { v_peak, tip, slope, .. } = *self;
-        Asked { v_peak, tip, slope }
-    }
-
-    fn of_cell(plant: &Plant, cell: &Cell) -> Self {
-        let Cell { motion, v_rms, power, tip: (tip_min, tip_max), v_peak, slope } = *cell;
-        let measures = Measures { v_rms, power, tip_min, tip_max, v_peak, slope };
-        let stable = !matches!(motion, Motion::Escape { .. } | Motion::Contact { .. });
-        Self::new(plant, motion, stable, &measures)
+        Self { resistance: plant.resistance(), measures: plant.in_si(measures), motion, stable }
     }
 }
 
@@ -132,7 +108,8 @@ pub fn reached_loads(
         let system = plant.system()?;
         let from = carried.as_ref().unwrap_or(&start);
         let Settled { plant, reached, .. } = settle(&plant, &system, from, Effort::cell())?;
-        let point = LoadPoint::of_cell(&plant, &reached.cell());
+        let Cell { motion, measures } = reached.cell();
+        let point = LoadPoint::new(&plant, motion, reached.cell().lasts(), &measures);
         let orbit = reached.orbit.map(|orbit| orbit.state);
         carried = point.stable.then(|| orbit.unwrap_or(reached.state));
         points.push(point);
@@ -198,5 +175,8 @@ pub fn decades(low: f64, high: f64, per_decade: usize) -> Vec<f64> {
 
 /// The highest of `points`, for a mark; `None` when all are missing.
 pub fn best(points: impl IntoIterator<Item = LoadPoint>) -> Option<LoadPoint> {
-    points.into_iter().filter(|point| point.stable).max_by(|a, b| a.power.total_cmp(&b.power))
+    points
+        .into_iter()
+        .filter(|point| point.stable)
+        .max_by(|a, b| a.measures.power.total_cmp(&b.measures.power))
 }

@@ -24,7 +24,7 @@ pub mod thin;
 pub mod trust;
 
 pub use band::Interval;
-pub use bounds::{Asked, Bounds};
+pub use bounds::Bounds;
 pub use error::DesignError;
 pub use harvest::{Harvest, Operating, operating};
 pub use plant::Plant;

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::linear::highest_place;
-use super::{Asked, Bounds, HarvestPoint, Plant};
-use crate::dynamics::{Branch, BranchPoint, Orbit};
+use super::{Bounds, HarvestPoint, Plant};
+use crate::dynamics::{Branch, BranchPoint, Measures, Orbit};
 use crate::model::Parameter;
-use crate::questions::response::{Followed, ResponsePoint, point};
+use crate::questions::response::Followed;
 
 /// Golden sections that locate a peak between three points of a branch: to 1e-5 of their distance.
 const SECTIONS: usize = 24;
@@ -35,30 +35,19 @@ pub enum Kept {
 pub struct Peak {
     /// Frequency (Hz).
     pub frequency: f64,
-    /// Mean power in the load (W).
-    pub power: f64,
+    /// Its means and extremes in SI units: V, W, mm.
+    #[serde(flatten)]
+    pub measures: Measures,
     /// Its period in excitation periods.
     pub periods: usize,
-    /// Largest |v| (V).
-    pub v_peak: f64,
-    /// Lowest and highest tip displacement (mm).
-    pub tip: (f64, f64),
-    /// Largest |slope| at the tip (rad).
-    pub slope: f64,
     /// What keeps it from being higher.
     pub kept: Kept,
 }
 
 impl Peak {
     fn new(point: &HarvestPoint, periods: usize, kept: Kept) -> Self {
-        let HarvestPoint { frequency, power, v_peak, tip, slope, .. } = *point;
-        Self { frequency, power, periods, v_peak, tip, slope, kept }
-    }
-
-    /// What it asks of the device.
-    pub fn asked(&self) -> Asked {
-        let Self { v_peak, tip, slope, .. } = *self;
-        Asked { v_peak, tip, slope }
+        let HarvestPoint { frequency, measures, .. } = *point;
+        Self { frequency, measures, periods, kept }
     }
 }
 
@@ -121,7 +110,11 @@ struct Arc<'a> {
 impl Arc<'_> {
     /// Replaces `best` by what is higher here.
     fn climb(&self, best: &mut Option<Peak>) {
-        let points: Vec<HarvestPoint> = self.knots.iter().map(|knot| self.of(&point(knot.point))).collect();
+        let points: Vec<HarvestPoint> = self
+            .knots
+            .iter()
+            .map(|knot| HarvestPoint::new(self.plant, knot.point.value, &knot.point.measures))
+            .collect();
         let margins: Vec<f64> = points.iter().map(|point| self.margin(point)).collect();
         let last = points.len() - 1;
         for (i, found) in points.iter().enumerate() {
@@ -139,17 +132,20 @@ impl Arc<'_> {
         }
         // What is hidden between the points, the highest places first, so that the others need not be looked at.
         let mut steps: Vec<usize> = (0..last).collect();
-        let power = |i: usize| points[i].power.max(points[i + 1].power);
+        let power = |i: usize| points[i].measures.power.max(points[i + 1].measures.power);
         steps.sort_by(|i, j| power(*j).total_cmp(&power(*i)));
         for i in steps {
-            let worth = best.as_ref().is_none_or(|best| power(i) * (1.0 + HIDDEN) > best.power);
+            let worth = best.as_ref().is_none_or(|best| power(i) * (1.0 + HIDDEN) > best.measures.power);
             if worth && (margins[i] >= 0.0) != (margins[i + 1] >= 0.0) {
                 self.meet_limit(i, margins[i] >= 0.0, best);
             }
         }
         for i in 1..last {
-            let peak = points[i].power >= points[i - 1].power && points[i].power >= points[i + 1].power;
-            let worth = best.as_ref().is_none_or(|best| points[i].power * (1.0 + HIDDEN) > best.power);
+            let peak = points[i].measures.power >= points[i - 1].measures.power
+                && points[i].measures.power >= points[i + 1].measures.power;
+            let worth = best
+                .as_ref()
+                .is_none_or(|best| points[i].measures.power * (1.0 + HIDDEN) > best.measures.power);
             if peak && worth {
                 self.ascend(i, best);
             }
@@ -179,7 +175,7 @@ impl Arc<'_> {
         // From -1 at the knot before to 1 at the one after.
         let at = |x: f64| if x < 0.0 { self.between(i - 1, 1.0 + x) } else { self.between(i, x) };
         let power = |x: f64| match at(x) {
-            Some(point) if self.margin(&point) >= 0.0 => point.power,
+            Some(point) if self.margin(&point) >= 0.0 => point.measures.power,
             _ => f64::NEG_INFINITY,
         };
         let place = highest_place(power, (-1.0, 1.0), SECTIONS);
@@ -202,36 +198,22 @@ impl Arc<'_> {
         // Between its ends a step's power is not far beyond them; another motion's is.
         let (low, high) = (a.measures.v_rms.min(b.measures.v_rms), a.measures.v_rms.max(b.measures.v_rms));
         let near = (low * (1.0 - HIDDEN)..=high * (1.0 + HIDDEN)).contains(&measures.v_rms);
-        (near && orbit.periods == self.periods && orbit.stable()).then(|| {
-            self.of(&ResponsePoint {
-                value: omega,
-                v_rms: measures.v_rms,
-                power: measures.power,
-                tip: (measures.tip_min, measures.tip_max),
-                v_peak: measures.v_peak,
-                slope: measures.slope,
-                multiplier: orbit.largest_multiplier().norm(),
-            })
-        })
-    }
-
-    fn of(&self, point: &ResponsePoint) -> HarvestPoint {
-        HarvestPoint::of_branch(self.plant, point)
+        (near && orbit.periods == self.periods && orbit.stable())
+            .then(|| HarvestPoint::new(self.plant, omega, &measures))
     }
 
     /// What is left to the nearest limit; nothing is limited without any.
     fn margin(&self, point: &HarvestPoint) -> f64 {
         self.bounds.map_or(f64::INFINITY, |bounds| {
-            let asked = point.asked();
             // What just touches has no margin and is not allowed.
-            let margin = bounds.margin(&asked);
-            if margin == 0.0 && !bounds.allows(&asked) { -f64::MIN_POSITIVE } else { margin }
+            let margin = bounds.margin(&point.measures);
+            if margin == 0.0 && !bounds.allows(&point.measures) { -f64::MIN_POSITIVE } else { margin }
         })
     }
 }
 
 fn offer(best: &mut Option<Peak>, peak: Peak) {
-    if best.as_ref().is_none_or(|best| peak.power > best.power) {
+    if best.as_ref().is_none_or(|best| peak.measures.power > best.measures.power) {
         *best = Some(peak);
     }
 }

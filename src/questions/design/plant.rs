@@ -1,5 +1,6 @@
 //! A scenario as a plant that delivers watts: its units, its load, and the dielectric loss beside the load.
 
+use crate::dynamics::Measures;
 use crate::model::materials::dielectric_conductance;
 use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem, Shaking, Units};
 use crate::scenario::Scenario;
@@ -98,6 +99,13 @@ impl Plant {
     /// Mean power in the load (W), V^2/R_eq, at a root mean square voltage (V).
     pub fn watts(&self, v_rms: f64) -> f64 {
         self.units.watts(self.load * v_rms * v_rms)
+    }
+
+    /// The numbers of a motion in SI units: its power in the load (W), its tip in mm.
+    pub fn in_si(&self, measures: &Measures) -> Measures {
+        let (low, high) = measures.tip;
+        let tip = (self.units.millimetres(low), self.units.millimetres(high));
+        Measures { power: self.watts(measures.v_rms), tip, ..*measures }
     }
 
     /// Distance s0 of the magnets at rest (beam lengths); `None` without magnets, which cannot touch.

@@ -70,9 +70,9 @@ pub fn trust_entry(
     }
     let cell = reach(&system, &initial, Effort::cell())?.cell();
     let value = cell.demand().map(|demand| match quantity {
-        Quantity::Power => plant.watts(cell.v_rms),
+        Quantity::Power => plant.watts(cell.measures.v_rms),
         Quantity::Tip => plant.units.millimetres(demand.tip.1.max(-demand.tip.0)),
-        Quantity::Voltage | Quantity::Threshold(_) => cell.v_rms,
+        Quantity::Voltage | Quantity::Threshold(_) => cell.measures.v_rms,
     });
     Ok(TrustEntry { modes, law, value, motion: Some(cell.motion) })
 }

@@ -44,12 +44,12 @@ fn the_doubled_motion_is_followed_over_loads_and_the_linear_optimum_is_the_close
     assert!(near.map(|point| point[1] / watt).fold(0.0, f64::max) > 0.95);
     let at_best = Plant::new(&figure_9())?.with_resistance(ohm)?;
     let linear = operating(&at_best.scenario)?.linear;
-    assert!((linear.power / watt - 1.0).abs() < 1e-9);
+    assert!((linear.measures.power / watt - 1.0).abs() < 1e-9);
     // At the device's own load, in the middle, it is the motion of the figure.
     let middle = study.reached()[12].ok_or("known")?;
     assert_eq!(middle.motion, Motion::Periodic { periods: 2 });
     let own = operating(&figure_9())?.reached.harvest.ok_or("it lasts")?;
-    assert!((middle.power / own.power - 1.0).abs() < 1e-7, "{middle:?} {own:?}");
+    assert!((middle.measures.power / own.measures.power - 1.0).abs() < 1e-7, "{middle:?} {own:?}");
     let doubled = study.reached().iter().flatten();
     let doubled = doubled.filter(|point| point.motion == Motion::Periodic { periods: 2 }).count();
     let forced = study.forced().ok_or("known")?;
@@ -60,7 +60,7 @@ fn the_doubled_motion_is_followed_over_loads_and_the_linear_optimum_is_the_close
     }
     assert!(doubled >= 15, "{doubled}");
     let found = best(study.reached().iter().flatten().copied()).ok_or("points")?;
-    assert!(found.power >= own.power);
+    assert!(found.measures.power >= own.measures.power);
     Ok(())
 }
 
@@ -85,16 +85,23 @@ fn the_best_frequency_beats_the_given_one() -> TestResult {
     let found = best_frequency(&scenario, plant.resistance(), window, limits)?;
     let own = operating(&scenario)?;
     println!("{found:?}");
-    assert!(found.linear[1] >= own.linear.power);
+    assert!(found.linear[1] >= own.linear.measures.power);
     let stable = found.stable.ok_or("a stable motion")?;
-    assert!(stable.power >= 0.999 * own.reached.harvest.ok_or("it lasts")?.power && stable.periods == 2);
+    assert!(
+        stable.measures.power >= 0.999 * own.reached.harvest.ok_or("it lasts")?.measures.power
+            && stable.periods == 2
+    );
     assert_eq!(found.within_limits, found.stable);
     // A voltage below the best motion's takes it away; one below every motion's leaves none.
     let at_most = |volts: f64| Limits { voltage: Some((volts, volts)), ..limits };
-    let volts = 0.7 * stable.v_peak;
+    let volts = 0.7 * stable.measures.v_peak;
     let found = best_frequency(&scenario, plant.resistance(), window, at_most(volts))?;
     let within = found.within_limits.ok_or("a motion within the limits")?;
-    assert!(found.stable == Some(stable) && within.v_peak <= volts && within.power < stable.power);
+    assert!(
+        found.stable == Some(stable)
+            && within.measures.v_peak <= volts
+            && within.measures.power < stable.measures.power
+    );
     let found = best_frequency(&scenario, plant.resistance(), window, at_most(0.1))?;
     assert_eq!(found.within_limits, None);
     Ok(())
@@ -134,7 +141,7 @@ fn curves_agree(shaking: Shaking) -> TestResult {
             let inside = (pair[0][0] - point.frequency) * (pair[1][0] - point.frequency) <= 0.0;
             let share = (point.frequency - pair[0][0]) / (pair[1][0] - pair[0][0]);
             let power = pair[0][1] + share * (pair[1][1] - pair[0][1]);
-            inside && (power / point.power - 1.0).abs() < 0.02
+            inside && (power / point.measures.power - 1.0).abs() < 0.02
         });
         assert!(on || *periods > 4, "{motion:?} {point:?}");
     }
@@ -152,13 +159,17 @@ fn curves_agree(shaking: Shaking) -> TestResult {
         let found = operating(&there)?;
         let (_, point) = study.from_rest()[index].flatten().ok_or("known")?;
         let harvest = found.reached.harvest.ok_or("it lasts")?;
-        assert!((point.power / harvest.power - 1.0).abs() < 1e-6, "{point:?} {harvest:?}");
+        assert!((point.measures.power / harvest.measures.power - 1.0).abs() < 1e-6, "{point:?} {harvest:?}");
         let per_g2 = harvest.power_per_g2.ok_or("shaken")?;
         assert!((point.power_per_g2 / per_g2 - 1.0).abs() < 1e-6);
         let hertz = units.hertz(there.parameters.omega);
         let linear = study.linear().points.iter().find(|point| (point[0] / hertz - 1.0).abs() < 1e-9);
         let linear = linear.ok_or("a point there")?;
-        assert!((linear[2] / found.linear.power - 1.0).abs() < 1e-9, "{linear:?} {:?}", found.linear);
+        assert!(
+            (linear[2] / found.linear.measures.power - 1.0).abs() < 1e-9,
+            "{linear:?} {:?}",
+            found.linear
+        );
     }
     let least = 1e-5;
     let rest = powers(&study.rest_pieces());

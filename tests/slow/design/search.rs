@@ -55,13 +55,13 @@ fn a_search_finds_more_power_within_its_limits_and_the_same_again() -> TestResul
         let scenario = study.scenario(found)?;
         let harvest = operating(&scenario)?.reached.harvest.ok_or("it lasts")?;
         let power = found.evaluation.value.ok_or("it lasts")?;
-        assert!((harvest.power / power - 1.0).abs() < 1e-6, "{harvest:?} {power}");
+        assert!((harvest.measures.power / power - 1.0).abs() < 1e-6, "{harvest:?} {power}");
         let (system, _) = scenario.validate()?;
         assert!(question.limits.allow(&harvest.demand, Plant::gap(&system)), "{harvest:?}");
         powers.push(power);
     }
     let own = operating(&question(Objective::Power, Limits::default()).scenario)?.reached.harvest;
-    let own = own.ok_or("it lasts")?.power;
+    let own = own.ok_or("it lasts")?.measures.power;
     println!("own {own}, found {powers:?}");
     assert!(powers[0] > own && powers[0] > powers[1], "{powers:?} {own}");
     Ok(())
@@ -187,7 +187,8 @@ fn a_chart_in_si_units_is_the_chart_of_the_numbers() -> TestResult {
     };
     let mut same = MotionChart::new(plane);
     complete(&mut same);
-    let [a, b] = [chart.cell(1, 2), same.cell(0, 0)].map(|cell| cell.flatten().map(|cell| cell.v_rms));
+    let [a, b] =
+        [chart.cell(1, 2), same.cell(0, 0)].map(|cell| cell.flatten().map(|cell| cell.measures.v_rms));
     assert!((a.ok_or("a cell")? / b.ok_or("a cell")? - 1.0).abs() < 1e-9, "{a:?} {b:?}");
     Ok(())
 }

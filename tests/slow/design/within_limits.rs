@@ -1,12 +1,12 @@
 //! Bands and loads that keep the limits.
 
-use harvester_lab::dynamics::Instability;
 use harvester_lab::dynamics::attractors::sweep::{Dwell, SweepCourse, sweep};
+use harvester_lab::dynamics::{Instability, Measures};
 use harvester_lab::model::{Device, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet, Shaking};
 use harvester_lab::questions::checks::Span;
 use harvester_lab::questions::design::band::usable;
 use harvester_lab::questions::design::point::powers;
-use harvester_lab::questions::design::{Asked, Bounds, Plant, operating};
+use harvester_lab::questions::design::{Bounds, Plant, operating};
 use harvester_lab::questions::harvest::{Harvest, HarvestStudy};
 use harvester_lab::questions::load::{Load, LoadStudy};
 use harvester_lab::questions::solve;
@@ -74,11 +74,11 @@ fn every_load_keeps_the_limits_that_its_motion_keeps_the_slope_included() -> Tes
         let there = operating(&plant.with_resistance(point.resistance)?.scenario)?;
         let demand = there.reached.harvest.ok_or("it lasts")?.demand;
         let slope = demand.slope.ok_or("a slope")?;
-        assert!((point.slope / slope - 1.0).abs() < 1e-4, "{point:?} {slope}");
-        assert_eq!(bounds.allows(&point.asked()), limits.allow(&demand, bounds.gap), "{point:?}");
+        assert!((point.measures.slope / slope - 1.0).abs() < 1e-4, "{point:?} {slope}");
+        assert_eq!(bounds.allows(&point.measures), limits.allow(&demand, bounds.gap), "{point:?}");
         // Deflection alone would allow all of them.
         assert!(demand.tip.1 < limits.deflection, "{demand:?}");
-        kept += usize::from(bounds.allows(&point.asked()));
+        kept += usize::from(bounds.allows(&point.measures));
     }
     assert!(kept > 0 && kept < study.reached().len(), "{kept}");
     Ok(())
@@ -116,12 +116,12 @@ fn the_best_frequency_within_limits_is_where_the_limit_is_met() -> TestResult {
     let course = SweepCourse { set, model, parameter, shaking, start: &[0.0; 5], dwell };
     let (points, _) = sweep(course, &values, None)?;
     let last = points.last().ok_or("a sweep")?;
-    let power = scenario.units().watts(last.power);
+    let power = scenario.units().watts(last.measures.power);
     assert!((power / number("power") - 1.0).abs() < 1e-3, "{power}");
     let bounds = Bounds::new(&Plant::new(&scenario)?, Limits::default())?;
     let beam = scenario.units().millimetres(1.0);
-    let tip = (beam * last.tip.0, beam * last.tip.1);
-    let margin = bounds.margin(&Asked { v_peak: last.v_peak, tip, slope: last.slope });
+    let tip = (beam * last.measures.tip.0, beam * last.measures.tip.1);
+    let margin = bounds.margin(&Measures { tip, ..last.measures });
     assert!(margin.abs() < 1e-3, "{margin}");
     Ok(())
 }
@@ -156,13 +156,17 @@ fn a_swept_curve_jumps_where_the_branch_folds_and_its_band_ends_there() -> TestR
     let jump = piece.windows(2).find(|pair| pair[0].frequency == pair[1].frequency).ok_or("a jump")?;
     println!("{jump:?} {fold}");
     assert!((jump[0].frequency / fold - 1.0).abs() < 3e-4, "{jump:?} {fold}");
-    assert!(jump[0].power > 2.0 * jump[1].power, "{jump:?}");
+    assert!(jump[0].measures.power > 2.0 * jump[1].measures.power, "{jump:?}");
     // The band ends with the motion: a line between the samples would have ended it elsewhere.
-    let least = 0.5 * jump[0].power + 0.5 * jump[1].power;
+    let least = 0.5 * jump[0].measures.power + 0.5 * jump[1].measures.power;
     let band = *usable(&powers(&study.swept_pieces(Direction::Up)), least).last().ok_or("a band")?;
     assert!((band.to / fold - 1.0).abs() < 3e-4, "{band:?} {fold}");
-    let across: Vec<[f64; 2]> =
-        study.swept(Direction::Up).iter().flatten().map(|point| [point.frequency, point.power]).collect();
+    let across: Vec<[f64; 2]> = study
+        .swept(Direction::Up)
+        .iter()
+        .flatten()
+        .map(|point| [point.frequency, point.measures.power])
+        .collect();
     let drawn = *usable(&[across], least).last().ok_or("a band")?;
     assert!((drawn.to / fold - 1.0).abs() > 1e-3, "{drawn:?} {fold}");
     Ok(())

@@ -53,9 +53,8 @@ pub(crate) type Numbers = [f64; 5];
 
 pub(crate) fn assert_numbers(run: &Run, reference: Numbers) {
     let s = run.summary.expect("a completed run has a summary");
-    for (value, reference) in
-        [s.v_rms, s.v_peak, s.dv_dt_peak, s.tip_max, s.tip_min].into_iter().zip(reference)
-    {
+    let m = s.measures;
+    for (value, reference) in [m.v_rms, m.v_peak, s.dv_dt_peak, m.tip.1, m.tip.0].into_iter().zip(reference) {
         assert_close(value, reference, reference.abs());
     }
 }

@@ -124,7 +124,7 @@ fn check(seed: u64, each: usize) {
         let verdict = inquiry.expect("a verdict").verdict;
         let by_verdict = standing(&truth, verdict.motion, verdict.v_rms.unwrap_or(0.0), VOLTS.0);
         let point = swept(set, *model, &system);
-        let by_sweep = standing(&truth, point.motion, point.v_rms, VOLTS.1);
+        let by_sweep = standing(&truth, point.motion, point.measures.v_rms, VOLTS.1);
         undecided.0 += usize::from(by_verdict == Standing::Undecided);
         undecided.1 += usize::from(by_sweep == Standing::Undecided);
         if by_verdict != Standing::Right || by_sweep != Standing::Right {
@@ -139,7 +139,7 @@ fn check(seed: u64, each: usize) {
             };
             println!(
                 "{set:?} {model:?}: {expected}; verdict {by_verdict:?} {} {:?}; sweep {by_sweep:?} {} {}",
-                verdict.motion, verdict.v_rms, point.motion, point.v_rms
+                verdict.motion, verdict.v_rms, point.motion, point.measures.v_rms
             );
         }
         if by_verdict == Standing::Wrong || by_sweep == Standing::Wrong {

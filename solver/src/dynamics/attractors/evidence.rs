@@ -338,8 +338,8 @@ impl Evidence {
     /// Where starts that differ by rounding lead, and how many of them.
     pub(super) fn beside(ends: &[(Signature, usize)]) -> Self {
         let end = |(signature, count): &(Signature, usize)| {
-            let Cell { motion, v_rms, .. } = signature.cell;
-            End { count: *count, motion, v_rms: signature.cell.lasts().then_some(v_rms) }
+            let Cell { motion, measures } = signature.cell;
+            End { count: *count, motion, v_rms: signature.cell.lasts().then_some(measures.v_rms) }
         };
         Self { shows: Observation::Beside(ends.iter().map(end).collect()), agrees: None }
     }

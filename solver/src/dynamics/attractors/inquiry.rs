@@ -17,8 +17,8 @@ use super::verdict::{
 };
 use super::voltage_spectrum::{VoltageSpectrum, VoltageSpectrumError};
 use crate::dynamics::bifurcations::ForcedMotion;
+use crate::dynamics::integration::Measures;
 use crate::dynamics::integration::{Collocation, Outcome, Settings};
-use crate::dynamics::orbits::Measures;
 use crate::dynamics::orbits::period_map::scales;
 use crate::model::{ForceLaw, ReducedSystem};
 
@@ -114,11 +114,7 @@ fn beside(
     let coarser = settler.reach(initial, coarse)?;
     let recogniser = Recogniser::new(system);
     let own = Signature::of(reached.clone());
-    // Averages over chaotic motions differ by chance, so two of them from one start are no two motions.
-    let one = |a: &Signature, b: &Signature| {
-        [a, b].iter().all(|end| end.cell.motion == Motion::Chaotic) || recogniser.same(a, b)
-    };
-    let same = one(&own, &Signature::of(coarser.clone()));
+    let same = recogniser.same_end(&own, &Signature::of(coarser.clone()));
     let lasting =
         matches!(reached.motion, Motion::Chaotic | Motion::Quasiperiodic | Motion::Undecided { .. });
     let separated = !lasting && separated(reached, &coarser);
@@ -146,7 +142,7 @@ fn beside(
             .collect();
         let effort = Effort { lasting: BESIDE_LASTING, steps: BESIDE_STEPS, ..Effort::full() };
         let end = Signature::of(settler.reach(&moved, effort)?);
-        match ends.iter_mut().find(|(known, _)| one(known, &end)) {
+        match ends.iter_mut().find(|(known, _)| recogniser.same_end(known, &end)) {
             Some((_, count)) => *count += 1,
             None if matches!(end.cell.motion, Motion::Undecided { .. }) => {}
             None => ends.push((end, 1)),
@@ -247,7 +243,7 @@ impl Findings<'_> {
             v_rms: measures.map(|measures| measures.v_rms),
             v_peak: measures.map(|measures| measures.v_peak),
             power: measures.map(|measures| measures.power),
-            tip_over_gap: measures.map(|measures| (measures.tip_min / gap, measures.tip_max / gap)),
+            tip_over_gap: measures.map(|measures| (measures.tip.0 / gap, measures.tip.1 / gap)),
             slope: measures.map(|measures| measures.slope),
             peaks,
             basic,
@@ -267,9 +263,9 @@ impl Findings<'_> {
             warnings.push(Warning::TransientChaos { time: reached.time });
         }
         warnings.extend(transient_warning(self.distance_at_end()));
-        if let Some(Measures { tip_min, tip_max, .. }) = reached.measures {
-            warnings.extend(force_law_warning(self.system, tip_min));
-            warnings.extend(deflection_warning(tip_min, tip_max));
+        if let Some(Measures { tip: (lowest, highest), .. }) = reached.measures {
+            warnings.extend(force_law_warning(self.system, lowest));
+            warnings.extend(deflection_warning(lowest, highest));
         }
         if matches!(reached.motion, Motion::Escape { .. }) && self.system.law != ForceLaw::Exact {
             warnings.push(Warning::TruncatedBarrier);
@@ -346,8 +342,8 @@ impl Findings<'_> {
         let mut add = |start: OtherStart, signature: Signature| {
             let decided = !matches!(signature.cell.motion, Motion::Undecided { .. });
             if decided && !known.iter().any(|known| recogniser.same(known, &signature)) {
-                let Cell { motion, v_rms, power, .. } = signature.cell;
-                found.push(Coexisting { start, motion, v_rms, power });
+                let Cell { motion, measures } = signature.cell;
+                found.push(Coexisting { start, motion, measures });
                 known.push(signature);
             }
         };

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::lyapunov::Exponent;
 use super::poincare::Recurrence;
 use super::rotation::Rotation;
-use crate::dynamics::orbits::{Measures, Orbit};
+use crate::dynamics::integration::Measures;
+use crate::dynamics::orbits::Orbit;
 use crate::model::Demand;
 use crate::sentence::{Say, Sentence, in_english, said};
 
@@ -149,35 +150,20 @@ pub struct Reached {
 pub struct Cell {
     /// The class.
     pub motion: Motion,
-    /// Root mean square of the voltage (V); 0 when the motion ended.
-    pub v_rms: f64,
-    /// Mean electrical power kappa v^2 in the load (dimensionless); 0 when the motion ended.
-    pub power: f64,
-    /// Lowest and highest tip displacement, in beam lengths; 0 when the motion ended.
-    pub tip: (f64, f64),
-    /// Largest |v| (V); 0 when the motion ended.
-    pub v_peak: f64,
-    /// Largest |slope| at the tip (rad); 0 when the motion ended.
-    pub slope: f64,
+    /// Means and extremes; 0 when the motion ended.
+    #[serde(flatten)]
+    pub measures: Measures,
 }
 
 impl Cell {
     /// Of a motion with its numbers, if it has any.
     pub fn new(motion: Motion, measures: Option<Measures>) -> Self {
-        match measures {
-            Some(measures) => {
-                let tip = (measures.tip_min, measures.tip_max);
-                let Measures { v_rms, power, v_peak, slope, .. } = measures;
-                Self { motion, v_rms, power, tip, v_peak, slope }
-            }
-            None => Self { motion, v_rms: 0.0, power: 0.0, tip: (0.0, 0.0), v_peak: 0.0, slope: 0.0 },
-        }
+        Self { motion, measures: measures.unwrap_or_default() }
     }
 
     /// What the motion asks of the device; `None` when it ended.
     pub fn demand(&self) -> Option<Demand> {
-        let Self { v_peak, tip, slope, .. } = *self;
-        self.lasts().then_some(Demand { v_peak, tip, slope: Some(slope) })
+        self.lasts().then(|| self.measures.demand())
     }
 
     /// Whether the motion goes on, so that it has means.

@@ -9,6 +9,7 @@
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::strobe::Strobe;
+use crate::dynamics::orbits::period_map::distance;
 use crate::dynamics::orbits::{Orbit, OrbitError, OrbitSolver};
 use crate::model::ReducedSystem;
 
@@ -136,8 +137,7 @@ impl Neighbourhood {
     }
 
     fn between(&self, a: &[f64], b: &[f64]) -> f64 {
-        let parts = a.iter().zip(b).zip(&self.scales);
-        parts.map(|((a, b), scale)| ((a - b) / scale).abs()).fold(0.0, f64::max)
+        distance(a, b, &self.scales)
     }
 
     /// Difference of the conserved charges of two states, scaled as the voltage; none with a load.

@@ -25,9 +25,9 @@ use super::signature::Signature;
 use super::strobe::Strobe;
 use super::tangent::Tangents;
 use super::zero_one::zero_one;
-use crate::dynamics::integration::{Collocation, IntegrationError, Outcome, Settings};
+use crate::dynamics::integration::{Collocation, IntegrationError, Measures, Outcome, Settings};
 use crate::dynamics::orbits::period_map::MOST_PERIODS;
-use crate::dynamics::orbits::{Instability, Measures, Orbit, OrbitSolver, PeriodMap};
+use crate::dynamics::orbits::{Instability, Orbit, OrbitSolver, PeriodMap};
 use crate::model::ReducedSystem;
 
 /// Excitation periods before the states are first looked at, between looks at least, and at most.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::motion::{Cell, Motion, Reached};
 use crate::dynamics::orbits::Orbit;
-use crate::dynamics::orbits::period_map::scales;
+use crate::dynamics::orbits::period_map::{distance, scales};
 use crate::model::ReducedSystem;
 
 /// Distance, relative to the amplitude, below which stroboscopic states are the same.
@@ -67,11 +67,17 @@ impl Recogniser {
             Motion::Periodic { .. } => self.same_orbit(&a.states, &b.states),
             Motion::Quasiperiodic | Motion::Chaotic => {
                 let room = if a.cell.motion == Motion::Chaotic { SAME_CHAOS } else { SAME_TORUS };
-                let (a, b) = (a.cell.v_rms, b.cell.v_rms);
+                let (a, b) = (a.cell.measures.v_rms, b.cell.measures.v_rms);
                 (a - b).abs() <= room * a.max(b)
             }
             Motion::Escape { .. } | Motion::Contact { .. } | Motion::Undecided { .. } => true,
         }
+    }
+
+    /// The same of two ends of runs from one start: averages over chaotic motions differ by chance, so two of them are no
+    /// two motions then.
+    pub(super) fn same_end(&self, a: &Signature, b: &Signature) -> bool {
+        [a, b].iter().all(|end| end.cell.motion == Motion::Chaotic) || self.same(a, b)
     }
 
     /// Whether the states coincide, begun at any of them.
@@ -83,10 +89,7 @@ impl Recogniser {
             state.iter().zip(&self.scales).map(|(y, scale)| (y / scale).abs()).fold(0.0, f64::max)
         };
         let amplitude = a.iter().map(components).fold(SMALL * self.gap, f64::max);
-        let near = |a: &Vec<f64>, b: &Vec<f64>| {
-            let mut differences = a.iter().zip(b).zip(&self.scales).map(|((a, b), scale)| (a - b) / scale);
-            differences.all(|difference| difference.abs() <= SAME_STATE * amplitude)
-        };
+        let near = |a: &Vec<f64>, b: &Vec<f64>| distance(a, b, &self.scales) <= SAME_STATE * amplitude;
         (0..b.len()).any(|shift| {
             let shifted = b.iter().cycle().skip(shift);
             a.iter().zip(shifted).all(|(a, b)| near(a, b))
@@ -98,6 +101,7 @@ impl Recogniser {
 mod tests {
     use super::*;
     use crate::dynamics::attractors::settle::{Effort, reach};
+    use crate::dynamics::integration::Measures;
     use crate::model::{ModelChoice, ParameterSet};
 
     fn signature(system: &ReducedSystem, initial: &[f64]) -> Signature {
@@ -128,29 +132,12 @@ mod tests {
         let system = ModelChoice::default().system(ParameterSet::default()).expect("the paper's device");
         let recogniser = Recogniser::new(&system);
         let torus = |v_rms| Signature {
-            cell: Cell {
-                motion: Motion::Quasiperiodic,
-                v_rms,
-                power: 0.0,
-                tip: (0.0, 0.0),
-                v_peak: 0.0,
-                slope: 0.0,
-            },
+            cell: Cell::new(Motion::Quasiperiodic, Some(Measures { v_rms, ..Default::default() })),
             states: vec![vec![0.0; 5]],
         };
         assert!(recogniser.same(&torus(20.0), &torus(20.1)));
         assert!(!recogniser.same(&torus(20.0), &torus(25.0)));
-        let escape = |time| Signature {
-            cell: Cell {
-                motion: Motion::Escape { time },
-                v_rms: 0.0,
-                power: 0.0,
-                tip: (0.0, 0.0),
-                v_peak: 0.0,
-                slope: 0.0,
-            },
-            states: Vec::new(),
-        };
+        let escape = |time| Signature { cell: Cell::new(Motion::Escape { time }, None), states: Vec::new() };
         assert!(recogniser.same(&escape(1.0), &escape(5.0)));
         assert!(!recogniser.same(&escape(1.0), &torus(20.0)));
     }

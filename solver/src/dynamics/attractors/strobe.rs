@@ -4,7 +4,7 @@
 //! Distances are largest components of scaled states (see [`crate::dynamics::PeriodMap::scales`]), so displacements.
 
 use super::poincare::{PhasePoint, Recurrence, recurrence};
-use crate::dynamics::orbits::period_map::scales;
+use crate::dynamics::orbits::period_map::{distance, scales};
 use crate::model::ReducedSystem;
 
 /// States kept.
@@ -61,8 +61,7 @@ impl Strobe {
     }
 
     fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
-        let differences = a.iter().zip(b).zip(&self.scales).map(|((a, b), scale)| ((a - b) / scale).abs());
-        differences.fold(0.0, f64::max)
+        distance(a, b, &self.scales)
     }
 
     /// Largest scaled component of the last `count` states.

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::motion::{Cell, Motion};
 use super::settle::{Effort, reach};
-use crate::dynamics::integration::{Collocation, IntegrationError, RunError, Settings};
+use crate::dynamics::integration::{Collocation, IntegrationError, Measures, RunError, Settings};
 use crate::model::{ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem, Shaking};
 
 /// How long each value is held, in excitation periods.
@@ -59,16 +59,9 @@ pub struct SweepPoint {
     pub motion: Motion,
     /// v at the stroboscopic instants kept (V), in their order.
     pub strobe: Vec<f64>,
-    /// Root mean square of the voltage (V): of the periodic motion itself where there is one.
-    pub v_rms: f64,
-    /// Largest |v| (V).
-    pub v_peak: f64,
-    /// Mean electrical power kappa v^2 (dimensionless).
-    pub power: f64,
-    /// Lowest and highest tip displacement, in beam lengths.
-    pub tip: (f64, f64),
-    /// Largest |slope| at the tip (rad).
-    pub slope: f64,
+    /// Means and extremes: of the periodic motion itself where there is one.
+    #[serde(flatten)]
+    pub measures: Measures,
     /// Excitation periods after which it repeats; `None` when it does not, or has not settled.
     pub period: Option<usize>,
     /// Whether the motion escaped or touched, or there is no such device; the other numbers are then zero.
@@ -134,16 +127,12 @@ struct Held {
 impl Held {
     /// What a motion's numbers say; one that has ended stands for a device that cannot be as well.
     fn of(cell: Cell) -> Self {
-        let Cell { motion, v_rms, power, tip, v_peak, slope } = cell;
+        let Cell { motion, measures } = cell;
         let point = SweepPoint {
             value: 0.0,
             motion,
             strobe: Vec::new(),
-            v_rms,
-            v_peak,
-            power,
-            tip,
-            slope,
+            measures,
             period: match motion {
                 Motion::Periodic { periods } => Some(periods),
                 _ => None,

@@ -10,7 +10,7 @@ use super::rotation::Rotation;
 use super::voltage_spectrum::{Peak, VoltageSpectrumError};
 use crate::dynamics::bifurcations::ForcedMotion;
 use crate::dynamics::bifurcations::boundary::CriticalExcitation;
-use crate::dynamics::integration::IntegrationError;
+use crate::dynamics::integration::{IntegrationError, Measures};
 use crate::dynamics::orbits::{Instability, Orbit};
 use crate::model::force::Exact;
 use crate::model::limits::LINEAR_BEAM;
@@ -51,10 +51,9 @@ pub struct ForcedSummary {
     pub instability: Option<Instability>,
     /// The lowest beta at which it is unstable, if below the system's.
     pub unstable_from: Option<f64>,
-    /// Root mean square of its voltage (V).
-    pub v_rms: f64,
-    /// Its mean power (dimensionless).
-    pub power: f64,
+    /// Its means and extremes.
+    #[serde(flatten)]
+    pub measures: Measures,
 }
 
 impl ForcedSummary {
@@ -64,8 +63,7 @@ impl ForcedSummary {
             stable: orbit.stable(),
             instability: orbit.instability(),
             unstable_from: forced.critical.beta(),
-            v_rms: orbit.measures.v_rms,
-            power: orbit.measures.power,
+            measures: orbit.measures,
         }
     }
 }
@@ -93,15 +91,15 @@ pub struct Coexisting {
     pub start: OtherStart,
     /// Its class.
     pub motion: Motion,
-    /// Root mean square of its voltage (V); 0 when it ends.
-    pub v_rms: f64,
-    /// Its mean power (dimensionless); 0 when it ends.
-    pub power: f64,
+    /// Its means and extremes; 0 when it ends.
+    #[serde(flatten)]
+    pub measures: Measures,
 }
 
 impl Say for Coexisting {
     fn say(&self) -> Sentence {
-        let values: [(&str, &dyn Say); 2] = [("motion", &self.motion), ("volts", &in_sentence(self.v_rms))];
+        let values: [(&str, &dyn Say); 2] =
+            [("motion", &self.motion), ("volts", &in_sentence(self.measures.v_rms))];
         match self.start {
             OtherStart::ForcedMotion => said(
                 "a start on the stable forced motion leads to another motion: {motion}, {volts} V rms",

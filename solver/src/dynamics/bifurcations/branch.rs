@@ -2,7 +2,8 @@
 
 use nalgebra::Complex;
 
-use crate::dynamics::orbits::{Instability, Measures, OrbitError};
+use crate::dynamics::integration::Measures;
+use crate::dynamics::orbits::{Instability, OrbitError};
 use crate::model::{Parameter, Shaking};
 
 /// What to follow.

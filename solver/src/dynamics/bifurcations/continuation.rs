@@ -10,8 +10,8 @@ use super::arclength::Family;
 use super::bracket::root;
 use super::branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course, MOST_EFFORT};
 use super::plane::Axis;
+use crate::dynamics::integration::measures::Observer;
 use crate::dynamics::orbits::floquet::eigenvector;
-use crate::dynamics::orbits::orbit::Observer;
 use crate::dynamics::orbits::{Instability, OrbitError};
 use crate::model::ReducedSystem;
 
@@ -239,9 +239,11 @@ impl Follower {
             None
         };
         let mut observer = Observer::default();
-        solver.evaluate_observed(beta, *periods, |step, _| observer.record(step))?;
+        solver.evaluate_observed(beta, *periods, |step, _| {
+            observer.record(step, 1.0);
+        })?;
         let multipliers = solver.multipliers()?;
-        let measures = observer.measures(system.parameters.kappa);
+        let measures = observer.measures(system.parameters.kappa).unwrap_or_default();
         let value = self.family.value(&place);
         let state = self.family.state(&place);
         Ok(Station { place, tangent, point: BranchPoint { value, state, multipliers, measures }, halving })

@@ -58,6 +58,11 @@ struct Top {
 }
 
 impl Highest {
+    /// Of a scalar and of its negative.
+    pub(in crate::dynamics) fn both(scalar: Scalar) -> [Self; 2] {
+        [1.0, -1.0].map(|sign| Self::new(scalar, sign))
+    }
+
     /// Of `scalar`; with the `sign` -1 the highest value of its negative.
     pub(in crate::dynamics) fn new(scalar: Scalar, sign: f64) -> Self {
         Self { scalar, sign, at_nodes: f64::NEG_INFINITY, candidates: Vec::with_capacity(KEPT) }

@@ -9,7 +9,8 @@
 //!   [`step`] is one of them as it is shown, `variation` its derivative.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`ongoing`] is a motion without an end, whose numbers may
 //!   change on the way.
-//! * `extremes` and [`summary`] read a run while it is computed.
+//! * `extremes` reads what lies between the nodes of steps, [`measures`] the numbers of a motion, [`summary`] a run while it
+//!   is computed.
 //!
 //! It knows nothing of the other rooms.
 
@@ -17,6 +18,7 @@ pub mod collocation;
 pub(super) mod extremes;
 pub(super) mod grid;
 pub mod linear;
+pub mod measures;
 pub mod node_map;
 pub mod ongoing;
 pub mod outcome;
@@ -30,6 +32,7 @@ pub mod trajectory;
 pub(super) mod variation;
 
 pub use collocation::{Collocation, Settings};
+pub use measures::Measures;
 pub use ongoing::{Ongoing, Reach};
 pub use outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome, RunError};
 pub use rule::NODES;

@@ -3,10 +3,9 @@
 use serde::Serialize;
 
 use super::extremes::{Highest, Scalar};
+use super::measures::{Measures, Observer};
 use super::propagator::Propagator;
-use super::rule::NODES;
 use super::step::Step;
-use crate::model::quadrature::gauss_legendre;
 
 /// Amplitudes and means over the last part of a run, the window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -15,18 +14,11 @@ pub struct Summary {
     pub from: f64,
     /// End of the window (dimensionless time).
     pub to: f64,
-    /// Root mean square of the voltage (V).
-    pub v_rms: f64,
-    /// Largest |v| (V).
-    pub v_peak: f64,
+    /// Means and extremes in it.
+    #[serde(flatten)]
+    pub measures: Measures,
     /// Largest |dv/dt| (V per dimensionless time).
     pub dv_dt_peak: f64,
-    /// Lowest tip displacement from equilibrium, towards the fixed magnet, in beam lengths.
-    pub tip_min: f64,
-    /// Highest tip displacement, in beam lengths.
-    pub tip_max: f64,
-    /// Largest |slope| at the tip from equilibrium (rad).
-    pub slope: f64,
     /// Largest |v| of the whole run (V); before the window it is read at the nodes of the steps, which may miss some
     /// per cent of a lonely peak.
     pub v_peak_whole: f64,
@@ -46,16 +38,11 @@ pub struct Envelope {
 pub struct Collector {
     /// Start and end of the window.
     window: (f64, f64),
-    weights: Vec<f64>,
-    integral: f64,
-    duration: f64,
     reached: f64,
     v_peak_whole: f64,
-    /// Of v and of -v, of dv/dt and of -dv/dt, of s and of -s, of the slope and of its negative.
-    voltage: [Highest; 2],
+    observer: Observer,
+    /// Of dv/dt and of -dv/dt.
     rate: [Highest; 2],
-    tip: [Highest; 2],
-    slope: [Highest; 2],
     envelope: Envelope,
 }
 
@@ -63,18 +50,12 @@ impl Collector {
     /// For a run to `t_end` with the given `window` (start and end, whole excitation periods, so that every step is
     /// either inside or outside), with the envelope in `slices` slices.
     pub fn new(window: (f64, f64), t_end: f64, slices: usize) -> Self {
-        let both = |scalar| [1.0, -1.0].map(|sign| Highest::new(scalar, sign));
         Self {
             window,
-            weights: gauss_legendre(NODES).1,
-            integral: 0.0,
-            duration: 0.0,
             reached: window.0,
             v_peak_whole: 0.0,
-            voltage: both(Scalar::Voltage),
-            rate: both(Scalar::VoltageRate),
-            tip: both(Scalar::Tip),
-            slope: both(Scalar::TipSlope),
+            observer: Observer::default(),
+            rate: Highest::both(Scalar::VoltageRate),
             envelope: Envelope { width: t_end / slices as f64, slices: Vec::with_capacity(slices) },
         }
     }
@@ -93,21 +74,8 @@ impl Collector {
             return;
         }
         let rate = step.tables.voltage_rate.at_nodes(step.start, step.rest);
-        let slope = step.tables.tip_slope.at_nodes(step.start, step.rest);
-        for (highest, values) in [
-            (&mut self.voltage, &voltage),
-            (&mut self.rate, &rate),
-            (&mut self.tip, step.tip),
-            (&mut self.slope, &slope),
-        ] {
-            for highest in highest {
-                highest.see(step, values);
-            }
-        }
-        // The nodes are Gauss nodes, so the mean square comes with their weights.
-        let square: f64 = self.weights.iter().zip(&voltage).map(|(w, v)| w * v * v).sum();
-        self.integral += square * length;
-        self.duration += length;
+        self.rate.iter_mut().for_each(|highest| highest.see(step, &rate));
+        self.observer.see(step, &voltage, length);
         self.reached = step.time + length;
     }
 
@@ -121,22 +89,16 @@ impl Collector {
         slices[slice] = (slices[slice].0.min(low), slices[slice].1.max(high));
     }
 
-    /// The numbers so far, where `propagator` is that of the run; `None` before the window was reached.
-    pub fn summary(&self, propagator: &Propagator) -> Option<Summary> {
-        let largest = |both| Highest::larger(both, propagator);
-        (self.duration > 0.0).then(|| {
-            let v_peak = largest(&self.voltage);
-            Summary {
-                from: self.window.0,
-                to: self.reached,
-                v_rms: (self.integral / self.duration).sqrt(),
-                v_peak,
-                dv_dt_peak: largest(&self.rate),
-                tip_min: -self.tip[1].value(propagator),
-                tip_max: self.tip[0].value(propagator),
-                slope: largest(&self.slope),
-                v_peak_whole: self.v_peak_whole.max(v_peak),
-            }
+    /// The numbers so far, where `propagator` is that of the run and `kappa` its circuit's conductance; `None` before the
+    /// window was reached.
+    pub fn summary(&self, propagator: &Propagator, kappa: f64) -> Option<Summary> {
+        let measures = self.observer.measures(kappa)?;
+        Some(Summary {
+            from: self.window.0,
+            to: self.reached,
+            measures,
+            dv_dt_peak: Highest::larger(&self.rate, propagator),
+            v_peak_whole: self.v_peak_whole.max(measures.v_peak),
         })
     }
 

@@ -2,10 +2,10 @@
 //!
 //! The powers are read at the Gauss nodes of the integrator's steps, so that their means are as accurate as the motion.
 
-use crate::dynamics::integration::extremes::{Highest, Scalar};
-use crate::dynamics::integration::propagator::{Propagator, StepRest, Workspace};
+use crate::dynamics::integration::measures::Observer;
+use crate::dynamics::integration::propagator::{StepRest, Workspace};
 use crate::dynamics::integration::rule::RULE;
-use crate::dynamics::integration::{Collocation, IntegrationError, NODES, Outcome, Settings, Step};
+use crate::dynamics::integration::{Collocation, IntegrationError, Measures, NODES, Outcome, Settings, Step};
 use crate::model::ReducedSystem;
 use crate::model::energy::{energy, powers};
 use crate::model::quadrature::gauss_legendre;
@@ -13,33 +13,25 @@ use crate::model::quadrature::gauss_legendre;
 /// Tolerance of the run: a thousand times finer than usual, since the balance is to close to eight digits.
 const TOLERANCE: f64 = 1e-8;
 
-/// Mean powers (dimensionless) and extremes of a motion.
+/// Mean powers (dimensionless) of a motion, with its other numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Balance {
     /// Power that the shaken base puts in.
     pub input: f64,
     /// Power lost in the Kelvin-Voigt material.
     pub viscous: f64,
-    /// Power kappa v^2 that leaves through the whole conductance.
-    pub electrical: f64,
     /// Rate at which the stored energy grew; 0 over a period of a periodic motion.
     pub stored: f64,
-    /// Root mean square of the voltage (V).
-    pub v_rms: f64,
-    /// Largest |v| (V).
-    pub v_peak: f64,
-    /// Lowest and highest tip displacement, in beam lengths.
-    pub tip: (f64, f64),
-    /// Largest |slope| at the tip from equilibrium (rad), read at the nodes, which may miss some per mille.
-    pub slope: f64,
+    /// Means and extremes; the power kappa v^2 leaves through the whole conductance.
+    pub measures: Measures,
 }
 
 impl Balance {
     /// |input - viscous - electrical - stored| over the largest of the four: what the integration has lost.
     pub fn defect(&self) -> f64 {
-        let terms = [self.input, self.viscous, self.electrical, self.stored];
+        let terms = [self.input, self.viscous, self.measures.power, self.stored];
         let largest = terms.iter().fold(0.0, |largest: f64, term| largest.max(term.abs()));
-        let sum = self.input - self.viscous - self.electrical - self.stored;
+        let sum = self.input - self.viscous - self.measures.power - self.stored;
         if largest > 0.0 { (sum / largest).abs() } else { 0.0 }
     }
 
@@ -64,7 +56,7 @@ impl Balance {
         };
         let gained = energy(system, integrator.state()) - energy(system, state);
         let completed = outcome == Outcome::Completed;
-        Ok(completed.then(|| reader.balance(integrator.propagator(), gained)))
+        Ok(completed.then(|| reader.balance(gained)))
     }
 }
 
@@ -75,24 +67,19 @@ struct Reader<'a> {
     /// Input, viscous, electrical power and v^2.
     integrals: [f64; 4],
     duration: f64,
-    tip: [Highest; 2],
-    voltage: [Highest; 2],
-    slope: [Highest; 2],
+    observer: Observer,
     state: Vec<f64>,
     workspace: Workspace,
 }
 
 impl<'a> Reader<'a> {
     fn new(system: &'a ReducedSystem) -> Self {
-        let both = |scalar| [1.0, -1.0].map(|sign| Highest::new(scalar, sign));
         Self {
             system,
             weights: gauss_legendre(NODES).1,
             integrals: [0.0; 4],
             duration: 0.0,
-            tip: both(Scalar::Tip),
-            voltage: both(Scalar::Voltage),
-            slope: both(Scalar::TipSlope),
+            observer: Observer::default(),
             state: Vec::new(),
             workspace: Workspace::default(),
         }
@@ -100,11 +87,7 @@ impl<'a> Reader<'a> {
 
     fn record(&mut self, step: &Step<'_>) {
         let length = step.tables.step;
-        let voltage = step.tables.voltage.at_nodes(step.start, step.rest);
-        self.tip.iter_mut().for_each(|highest| highest.see(step, step.tip));
-        self.voltage.iter_mut().for_each(|highest| highest.see(step, &voltage));
-        let slope = step.tables.tip_slope.at_nodes(step.start, step.rest);
-        self.slope.iter_mut().for_each(|highest| highest.see(step, &slope));
+        self.observer.record(step, length);
         let rest = StepRest::new(step.rest, length);
         self.state.clear();
         self.state.extend_from_slice(step.start);
@@ -128,20 +111,11 @@ impl<'a> Reader<'a> {
         self.duration += length;
     }
 
-    fn balance(&self, propagator: &Propagator, gained: f64) -> Balance {
-        let [input, viscous, electrical, square] = self.integrals.map(|integral| integral / self.duration);
-        let [high, low] = self.tip.each_ref().map(|highest| highest.value(propagator));
-        let largest = |both| Highest::larger(both, propagator);
-        Balance {
-            input,
-            viscous,
-            electrical,
-            stored: gained / self.duration,
-            v_rms: square.sqrt(),
-            v_peak: largest(&self.voltage),
-            tip: (-low, high),
-            slope: largest(&self.slope),
-        }
+    fn balance(&self, gained: f64) -> Balance {
+        let [input, viscous, power, square] = self.integrals.map(|integral| integral / self.duration);
+        let seen = self.observer.measures(self.system.parameters.kappa).unwrap_or_default();
+        let measures = Measures { v_rms: square.sqrt(), power, ..seen };
+        Balance { input, viscous, stored: gained / self.duration, measures }
     }
 }
 
@@ -166,12 +140,12 @@ mod tests {
             let balance = Balance::of(&system, &orbit.state, 1).expect("a run").expect("it lasts");
             assert!(balance.stored.abs() < 1e-8 * balance.input, "{balance:?}");
             assert!(balance.defect() < 1e-8, "{balance:?}");
-            let measures = orbit.measures;
-            assert!((balance.v_rms / measures.v_rms - 1.0).abs() < 1e-8, "{balance:?} {measures:?}");
-            assert!((balance.v_peak / measures.v_peak - 1.0).abs() < 1e-7, "{balance:?} {measures:?}");
-            assert!((balance.tip.0 / measures.tip_min - 1.0).abs() < 1e-7, "{balance:?} {measures:?}");
+            let (found, measures) = (balance.measures, orbit.measures);
+            assert!((found.v_rms / measures.v_rms - 1.0).abs() < 1e-8, "{balance:?} {measures:?}");
+            assert!((found.v_peak / measures.v_peak - 1.0).abs() < 1e-7, "{balance:?} {measures:?}");
+            assert!((found.tip.0 / measures.tip.0 - 1.0).abs() < 1e-7, "{balance:?} {measures:?}");
             // The first mode's slope at the tip is 1.4 of its displacement.
-            assert!(balance.slope > balance.tip.1, "{balance:?}");
+            assert!(found.slope > found.tip.1, "{balance:?}");
         }
     }
 }

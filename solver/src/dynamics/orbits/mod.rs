@@ -20,6 +20,6 @@ pub mod period_map;
 pub use balance::Balance;
 pub use floquet::Instability;
 pub use newton::OrbitSolver;
-pub use orbit::{Measures, Orbit};
+pub use orbit::Orbit;
 pub use orbit_error::OrbitError;
 pub use period_map::PeriodMap;

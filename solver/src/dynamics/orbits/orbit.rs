@@ -1,41 +1,21 @@
 //! Periodic motions: found by Newton's iteration on the stroboscopic map, measured, and judged by their multipliers.
 
 use nalgebra::Complex;
-use serde::Serialize;
 
 use super::floquet::Instability;
 use super::march::Forced;
 use super::newton::{Convergence, OrbitSolver};
 use super::orbit_error::OrbitError;
-use super::period_map::{MOST_PERIODS, scales};
-use crate::dynamics::integration::extremes::{Highest, Scalar};
-use crate::dynamics::integration::propagator::Propagator;
-use crate::dynamics::integration::{NODES, Step};
+use super::period_map::{MOST_PERIODS, distance, scales};
+use crate::dynamics::integration::Measures;
+use crate::dynamics::integration::measures::Observer;
 use crate::model::ReducedSystem;
-use crate::model::quadrature::gauss_legendre;
 use crate::theory::LinearResponse;
 
 /// Distance between stroboscopic points, over the gap, below which they are the same point.
 const SAME_POINT: f64 = 1e-8;
 /// Decay within one step beyond which rounding hides its determinant.
 const MEASURABLE_DECAY: f64 = 12.0;
-
-/// Means and extremes of a periodic motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Measures {
-    /// Root mean square of the voltage (V).
-    pub v_rms: f64,
-    /// Mean electrical power kappa v^2 in the load (dimensionless).
-    pub power: f64,
-    /// Lowest tip displacement from equilibrium, towards the fixed magnet, in beam lengths.
-    pub tip_min: f64,
-    /// Highest tip displacement, in beam lengths.
-    pub tip_max: f64,
-    /// Largest |v| (V).
-    pub v_peak: f64,
-    /// Largest |slope| at the tip from equilibrium (rad).
-    pub slope: f64,
-}
 
 /// A periodic motion of a system.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,8 +66,7 @@ impl Orbit {
         let mut nearest: Option<(f64, Self)> = None;
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let Ok(convergence) = solver.find(guess, beta, part) else { continue };
-            let components = solver.state().iter().zip(guess).zip(scales(system));
-            let distance = components.map(|((a, b), scale)| (a - b).abs() / scale).fold(0.0, f64::max);
+            let distance = distance(solver.state(), guess, &scales(system));
             if nearest.as_ref().is_none_or(|(other, _)| distance < *other)
                 && let Ok(orbit) = Self::read(system, &mut solver, convergence, beta, part)
             {
@@ -143,10 +122,11 @@ impl Orbit {
         let periods = shortest_period(solver, beta, periods)?;
         // One more pass over the shortest period: the derivative at the final state, and what is seen on the way.
         let state = solver.state().to_vec();
-        let mut observer = Observer::default();
+        let (mut observer, mut logarithm) = (Observer::default(), 0.0);
         let residual = solver.evaluate_observed(beta, periods, |step, derivative| {
-            observer.record(step);
-            observer.logarithm += derivative.matrix().determinant().ln();
+            // The steps are equally long.
+            observer.record(step, 1.0);
+            logarithm += derivative.matrix().determinant().ln();
         })?;
         let steps_per_period = solver.map().steps_per_period();
         let duration = solver.map().period() * periods as f64;
@@ -154,8 +134,8 @@ impl Orbit {
         let measurable = -exponent < MEASURABLE_DECAY * (steps_per_period * periods) as f64;
         Ok(Self {
             multipliers: solver.multipliers()?,
-            measures: observer.measures(system.parameters.kappa),
-            liouville_defect: measurable.then(|| (observer.logarithm - exponent).exp_m1().abs()),
+            measures: observer.measures(system.parameters.kappa).unwrap_or_default(),
+            liouville_defect: measurable.then(|| (logarithm - exponent).exp_m1().abs()),
             iterations: convergence.iterations,
             state,
             periods,
@@ -198,72 +178,9 @@ pub(super) fn shortest_period(
     for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
         let map = solver.map();
         map.apply(&state, beta, part, |_, _| ())?;
-        let distances =
-            map.image().iter().zip(&state).zip(map.scales()).map(|((a, b), scale)| (a - b).abs() / scale);
-        if distances.fold(0.0, f64::max) < SAME_POINT * map.gap() {
+        if distance(map.image(), &state, map.scales()) < SAME_POINT * map.gap() {
             return Ok(part);
         }
     }
     Ok(periods)
-}
-
-/// Reads a motion step by step.
-pub(in crate::dynamics) struct Observer {
-    weights: Vec<f64>,
-    square: f64,
-    steps: f64,
-    lowest: Highest,
-    highest: Highest,
-    /// Of v and of -v.
-    voltage: [Highest; 2],
-    /// Of the slope at the tip and of its negative.
-    slope: [Highest; 2],
-    /// From the first step.
-    propagator: Option<Propagator>,
-    /// Logarithm of the determinant of the map's derivative.
-    logarithm: f64,
-}
-
-impl Default for Observer {
-    fn default() -> Self {
-        Self {
-            weights: gauss_legendre(NODES).1,
-            square: 0.0,
-            steps: 0.0,
-            lowest: Highest::new(Scalar::Tip, -1.0),
-            highest: Highest::new(Scalar::Tip, 1.0),
-            voltage: [1.0, -1.0].map(|sign| Highest::new(Scalar::Voltage, sign)),
-            slope: [1.0, -1.0].map(|sign| Highest::new(Scalar::TipSlope, sign)),
-            propagator: None,
-            logarithm: 0.0,
-        }
-    }
-}
-
-impl Observer {
-    pub(in crate::dynamics) fn record(&mut self, step: &Step<'_>) {
-        let voltage = step.tables.voltage.at_nodes(step.start, step.rest);
-        self.square += self.weights.iter().zip(&voltage).map(|(w, v)| w * v * v).sum::<f64>();
-        self.steps += 1.0;
-        self.propagator.get_or_insert_with(|| step.propagator.clone());
-        self.lowest.see(step, step.tip);
-        self.highest.see(step, step.tip);
-        self.voltage.iter_mut().for_each(|highest| highest.see(step, &voltage));
-        let slope = step.tables.tip_slope.at_nodes(step.start, step.rest);
-        self.slope.iter_mut().for_each(|highest| highest.see(step, &slope));
-    }
-
-    pub(in crate::dynamics) fn measures(&self, kappa: f64) -> Measures {
-        // The steps are equally long, so the mean is that of their means.
-        let mean = self.square / self.steps;
-        let (tip_min, tip_max, v_peak, slope) = match &self.propagator {
-            Some(propagator) => {
-                let largest = |both| Highest::larger(both, propagator);
-                let (low, high) = (-self.lowest.value(propagator), self.highest.value(propagator));
-                (low, high, largest(&self.voltage), largest(&self.slope))
-            }
-            None => (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0.0),
-        };
-        Measures { v_rms: mean.sqrt(), power: kappa * mean, tip_min, tip_max, v_peak, slope }
-    }
 }

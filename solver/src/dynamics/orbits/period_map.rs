@@ -305,3 +305,8 @@ pub(in crate::dynamics) fn scales(system: &ReducedSystem) -> Vec<f64> {
     let velocities = system.modes.iter().map(|mode| mode.omega);
     std::iter::repeat_n(1.0, system.modes.len()).chain(velocities).chain([voltage]).collect()
 }
+
+/// Largest component of the difference of two states, each over its entry of `scales`.
+pub(in crate::dynamics) fn distance(a: &[f64], b: &[f64], scales: &[f64]) -> f64 {
+    a.iter().zip(b).zip(scales).map(|((a, b), scale)| ((a - b) / scale).abs()).fold(0.0, f64::max)
+}

@@ -46,7 +46,7 @@ fn curves(study: &HarvestStudy) -> [(&'static str, Vec<Vec<HarvestPoint>>); 5] {
 }
 
 fn highest(pieces: &[Vec<HarvestPoint>]) -> Option<HarvestPoint> {
-    pieces.iter().flatten().copied().max_by(|a, b| a.power.total_cmp(&b.power))
+    pieces.iter().flatten().copied().max_by(|a, b| a.measures.power.total_cmp(&b.measures.power))
 }
 
 /// Where a curve gives enough, and where it does so within the limits.
@@ -83,8 +83,11 @@ fn list(intervals: &[Interval], between: &str) -> String {
 fn least(view: &View, study: &HarvestStudy) -> f64 {
     view.design.least.unwrap_or_else(|| {
         let all = curves(study);
-        let top =
-            all.iter().filter_map(|(_, pieces)| highest(pieces)).map(|point| point.power).fold(0.0, f64::max);
+        let top = all
+            .iter()
+            .filter_map(|(_, pieces)| highest(pieces))
+            .map(|point| point.measures.power)
+            .fold(0.0, f64::max);
         round_significant(0.5 * top, 2)
     })
 }
@@ -132,7 +135,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
             let half = if index == 0 { Some(study.linear().half_power) } else { half_power(&powers(pieces)) };
             ui.label(small(name).color(tokens.text));
             let at_least = |reached: bool| if reached { "≥ " } else { "" };
-            let shown = format!("{}{}", at_least(at_end(top.frequency)), with_unit(top.power, "W"));
+            let shown = format!("{}{}", at_least(at_end(top.frequency)), with_unit(top.measures.power, "W"));
             let peak = ui.label(small(&shown).color(tokens.text_strong));
             peak.on_hover_text(fill("at {hertz} Hz", &[("hertz", &significant(top.frequency, 5))]));
             let cut_off = |band: &Interval| at_least(at_end(band.from) || at_end(band.to));

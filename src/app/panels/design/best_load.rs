@@ -36,7 +36,7 @@ pub(super) fn brief(context: &mut Context<'_>, ui: &mut Ui) {
     let bounds = Safety::of(context.view, context.session).map(|safety| safety.0);
     match Optimum::of(study, bounds).filter(|_| study.finished()) {
         Some(best) => {
-            let of = |point: &LoadPoint| (gives(point.resistance, point.power), point.resistance);
+            let of = |point: &LoadPoint| (gives(point.resistance, point.measures.power), point.resistance);
             let all = of(&best.of_all);
             let within = best.within_limits.as_ref().map(of);
             line(ui, &fill("the motion reached: {what}", &[("what", &all.0)]));
@@ -102,12 +102,12 @@ fn both(context: &mut Context<'_>, ui: &mut Ui) {
     }
     let highest = |pick: fn(&BestFrequency) -> Option<Peak>| {
         let peaks = best.iter().filter_map(|best| Some((best.resistance, pick(best)?)));
-        peaks.max_by(|a, b| a.1.power.total_cmp(&b.1.power))
+        peaks.max_by(|a, b| a.1.measures.power.total_cmp(&b.1.measures.power))
     };
     if let Some(all) = highest(|best| best.stable) {
         let within = highest(|best| best.within_limits);
         let described = |(resistance, peak): (f64, Peak)| {
-            let text = place(peak.frequency, resistance, peak.power);
+            let text = place(peak.frequency, resistance, peak.measures.power);
             let text = fill("{text}, period {periods}", &[("text", &text), ("periods", &peak.periods)]);
             let why = match peak.kept {
                 Kept::Limit => tr(", where a limit is just met"),

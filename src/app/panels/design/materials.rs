@@ -128,11 +128,9 @@ fn found(context: &Context<'_>, ui: &mut Ui, row: &MaterialRow) {
         ui.label("–");
         return;
     };
-    ui.label(RichText::new(with_unit(harvest.power, "W")).color(tokens.text_strong)).on_hover_text(format!(
-        "{}, {}",
-        say(&row.reached.motion),
-        with_unit(harvest.v_rms, tr("V rms"))
-    ));
+    ui.label(RichText::new(with_unit(harvest.measures.power, "W")).color(tokens.text_strong)).on_hover_text(
+        format!("{}, {}", say(&row.reached.motion), with_unit(harvest.measures.v_rms, tr("V rms"))),
+    );
     // The ceramic's own voltage, unless the user chose one.
     let limits = Limits {
         voltage: context.view.design.limits.voltage.or(row.voltage_limit),

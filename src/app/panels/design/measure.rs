@@ -57,10 +57,10 @@ impl Measure {
 /// One value in SI units (mm for the tip), or two where there is a range.
 pub(in crate::app::panels) fn values(watched: Watched, point: &HarvestPoint) -> [f64; 2] {
     match watched {
-        Watched::Power => [point.power; 2],
+        Watched::Power => [point.measures.power; 2],
         Watched::PerG2 => [point.power_per_g2; 2],
-        Watched::Voltage => [point.v_rms; 2],
-        Watched::Peak => [point.v_peak; 2],
-        Watched::Tip => [point.tip.0, point.tip.1],
+        Watched::Voltage => [point.measures.v_rms; 2],
+        Watched::Peak => [point.measures.v_peak; 2],
+        Watched::Tip => [point.measures.tip.0, point.measures.tip.1],
     }
 }

@@ -15,7 +15,7 @@ impl Optimum {
     /// None when no motion lasts.
     pub(in crate::app::panels) fn of(study: &LoadStudy, bounds: Option<Bounds>) -> Option<Self> {
         let points = study.reached().iter().flatten().copied();
-        let keeps = |point: &LoadPoint| bounds.is_none_or(|bounds| bounds.allows(&point.asked()));
+        let keeps = |point: &LoadPoint| bounds.is_none_or(|bounds| bounds.allows(&point.measures));
         Some(Self { of_all: best(points.clone())?, within_limits: best(points.filter(keeps)) })
     }
 

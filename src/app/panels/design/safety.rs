@@ -9,11 +9,12 @@ use crate::app::theme;
 use crate::app::view::View;
 use crate::app::widgets::number::with_unit;
 use crate::app::widgets::plot_style;
+use crate::dynamics::Measures;
 use crate::export::Pen;
 use crate::export::figure::Anchor;
 use crate::model::Demand;
 use crate::model::limits::{Check, LimitKind, Standing};
-use crate::questions::design::{Asked, Bounds};
+use crate::questions::design::Bounds;
 use crate::scheduler::piece::fingerprint;
 
 /// The limits of the device in view.
@@ -85,15 +86,15 @@ fn line(plot: &mut PlotUi<'_>, [left, at]: [f64; 2], name: &str) {
     }
 }
 
-/// Of `points`, those that go beyond the bounds, by what `demand` says of each.
+/// Of `points`, those that go beyond the bounds, by what `measures` (in SI units) says of each.
 pub(in crate::app::panels) fn beyond<T>(
     bounds: Option<Bounds>,
     points: &[T],
-    demand: &dyn Fn(&T) -> Asked,
+    measures: &dyn Fn(&T) -> Measures,
     place: &dyn Fn(&T) -> PlotPoint,
 ) -> Vec<PlotPoint> {
     let Some(bounds) = bounds else { return Vec::new() };
-    points.iter().filter(|point| !bounds.allows(&demand(point))).map(place).collect()
+    points.iter().filter(|point| !bounds.allows(&measures(point))).map(place).collect()
 }
 
 /// A check in words: `tip closes 49 % of the gap`.

@@ -60,11 +60,12 @@ fn numbers(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
         tiles(ui, &[tile], TILE);
         return;
     };
-    let (power, per_g2) = (parts(harvest.power, "W"), parts(harvest.power_per_g2.unwrap_or(0.0), "W/g²"));
-    let volts = parts(harvest.v_rms, "V");
+    let (power, per_g2) =
+        (parts(harvest.measures.power, "W"), parts(harvest.power_per_g2.unwrap_or(0.0), "W/g²"));
+    let volts = parts(harvest.measures.v_rms, "V");
     let tip = fill(
         "{from} to {to}",
-        &[("from", &significant(harvest.tip.0, 3)), ("to", &significant(harvest.tip.1, 3))],
+        &[("from", &significant(harvest.measures.tip.0, 3)), ("to", &significant(harvest.measures.tip.1, 3))],
     );
     let efficiency = harvest.efficiency.map_or("–".to_owned(), |part| significant(100.0 * part, 3));
     let peak = fill("peak {value}", &[("value", &with_unit(harvest.demand.v_peak, "V"))]);
@@ -150,7 +151,7 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
     let tokens = theme::tokens(ui);
     let mut facts = vec![say(&operating.reached.motion)];
     if let Some(gain) = operating.reached_gain {
-        let linear = with_unit(operating.linear.power, "W");
+        let linear = with_unit(operating.linear.measures.power, "W");
         facts.push(fill(
             "{times} the linear device's {linear} at this frequency",
             &[("times", &times(gain)), ("linear", &linear)],
@@ -164,7 +165,7 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
         facts.push(fill(
             "{times} its {power} at its own resonance, {hertz} Hz, under the same {acceleration} g{bends}",
             &[
-                ("times", &times(harvest.power / linear.power)),
+                ("times", &times(harvest.measures.power / linear.power)),
                 ("power", &with_unit(linear.power, "W")),
                 ("hertz", &significant(linear.frequency, 4)),
                 ("acceleration", &significant(operating.acceleration, 3)),
@@ -181,7 +182,7 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
     }
     let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.operating.as_ref());
     if let Some(kept) = kept.and_then(|kept| kept.reached.harvest.as_ref()) {
-        let (volts, watts) = (with_unit(kept.v_rms, "V"), with_unit(kept.power, "W"));
+        let (volts, watts) = (with_unit(kept.measures.v_rms, "V"), with_unit(kept.measures.power, "W"));
         facts.push(fill("pinned: {volts}, {watts}", &[("volts", &volts), ("watts", &watts)]));
     }
     let mut remarks = Vec::new();
@@ -190,7 +191,7 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
             "the forced motion is unstable here (|μ| = {multiplier}) and would give {power}",
             &[
                 ("multiplier", &significant(forced.multiplier, 4)),
-                ("power", &with_unit(forced.harvest.power, "W")),
+                ("power", &with_unit(forced.harvest.measures.power, "W")),
             ],
         ));
     }

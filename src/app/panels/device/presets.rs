@@ -80,7 +80,7 @@ mod tests {
         assert!(first.is_some_and(|hertz| (STEEL_BEAM.frequency / hertz - 1.0).abs() < 0.05), "{first:?}");
         assert!((STEEL_BEAM.acceleration() / 0.2 - 1.0).abs() < 0.01, "{}", STEEL_BEAM.acceleration());
         let harvest = operating(&scenario).expect("a device").reached.harvest.expect("it lasts");
-        assert!((1e-6..1e-2).contains(&harvest.power), "{}", harvest.power);
+        assert!((1e-6..1e-2).contains(&harvest.measures.power), "{}", harvest.measures.power);
         let checks = Limits::of(&STEEL_BEAM).checks(&harvest.demand, Plant::gap(&system));
         let within = |check: &Check| check.standing == Standing::Within;
         assert!(checks.len() > 2 && checks.iter().all(within) && within(&sag(&STEEL_BEAM)), "{checks:?}");

@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::dynamics::integration::Measures;
 use crate::dynamics::orbits::Instability;
 use crate::sentence::{Say, Sentence, in_english, said};
 
@@ -26,8 +27,9 @@ pub struct CurvePoint {
     pub at: [f64; 2],
     /// State of the orbit at t = 0, length 2N + 1.
     pub state: Vec<f64>,
-    /// Root mean square of the orbit's voltage (V).
-    pub v_rms: f64,
+    /// Means and extremes of the orbit.
+    #[serde(flatten)]
+    pub measures: Measures,
     /// Coefficient of the bifurcation's normal form on the centre manifold (dimensionless): b of x + b x^2 at a fold,
     /// with a sign that changes at a cusp; c of -x + c x^3 at a period doubling; at a Neimark-Sacker point the real
     /// part d of D in exp(i theta) z (1 + D z |z|^2). x measures states, in the components that
@@ -267,7 +269,12 @@ mod tests {
 
     #[test]
     fn stretches_meet_in_special_points() {
-        let point = |x: f64, coefficient| CurvePoint { at: [x, 0.0], state: vec![], v_rms: 0.0, coefficient };
+        let point = |x: f64, coefficient| CurvePoint {
+            at: [x, 0.0],
+            state: vec![],
+            measures: Measures::default(),
+            coefficient,
+        };
         let turn = SpecialPoint {
             kind: SpecialKind::GeneralizedPeriodDoubling,
             at: [1.5, 0.0],
@@ -302,10 +309,11 @@ mod tests {
     fn a_curve_round_trips_through_json() -> Result<(), serde_json::Error> {
         let (at, state) = ([8.1, 0.01], vec![0.1, -0.2, 0.3]);
         let multipliers = vec![[-1.0, 0.0], [0.3, 0.4]];
+        let measures = Measures { v_rms: 1.5, tip: (-0.1, 0.2), ..Default::default() };
         let curve = Curve {
             kind: Instability::PeriodDoubling,
             periods: 1,
-            points: vec![CurvePoint { at, state: state.clone(), v_rms: 1.5, coefficient: Some(-0.25) }],
+            points: vec![CurvePoint { at, state: state.clone(), measures, coefficient: Some(-0.25) }],
             origin: 0,
             special: vec![SpecialPoint {
                 kind: SpecialKind::OneToTwo,

@@ -92,6 +92,7 @@ mod tests {
     use super::*;
     use crate::dynamics::bifurcations::curves::CurveEnd;
     use crate::dynamics::bifurcations::plane::Axis;
+    use crate::dynamics::integration::Measures;
     use crate::dynamics::orbits::{Instability, OrbitError};
     use crate::model::Parameter;
 
@@ -106,7 +107,12 @@ mod tests {
         let mut known = KnownCurves::new(Plane::new([omega, beta])?);
         let point = |fraction: f64| {
             let at = [8.2 + 0.4 * fraction, 0.01 + 0.02 * fraction];
-            CurvePoint { at, state: vec![0.1 + 0.1 * fraction], v_rms: 1.0, coefficient: None }
+            CurvePoint {
+                at,
+                state: vec![0.1 + 0.1 * fraction],
+                measures: Measures::default(),
+                coefficient: None,
+            }
         };
         let points = vec![point(0.0), point(0.5), point(1.0)];
         let (kind, ends) = (Instability::Fold, [CurveEnd::Window, CurveEnd::Window]);

@@ -6,8 +6,8 @@ use super::condition::Condition;
 use super::curve::{CurvePoint, SpecialKind, SpecialPoint};
 use super::normal_form::NormalForm;
 use super::surface::{Direction, Fold, Surface};
-use crate::dynamics::integration::Step;
-use crate::dynamics::orbits::orbit::Observer;
+use crate::dynamics::integration::measures::Observer;
+use crate::dynamics::integration::{Measures, Step};
 use crate::dynamics::orbits::period_map::StepDerivative;
 use crate::dynamics::orbits::{Instability, OrbitError};
 
@@ -37,7 +37,7 @@ pub(super) struct Station {
     /// Not on a curve of folds, and not where it cannot be computed.
     form: Option<NormalForm>,
     at: [f64; 2],
-    v_rms: f64,
+    measures: Measures,
 }
 
 impl Station {
@@ -63,13 +63,15 @@ impl Station {
         };
         let observer = loop {
             let mut observer = Observer::default();
-            let seen = |step: &Step<'_>, _: &StepDerivative<'_>| observer.record(step);
+            let seen = |step: &Step<'_>, _: &StepDerivative<'_>| {
+                observer.record(step, 1.0);
+            };
             if family.solver.evaluate_observed_at(&state, beta, periods, seen)? <= 1.0 {
                 break observer;
             }
             family.solver.map().refine()?;
         };
-        let v_rms = observer.measures(family.system.parameters.kappa).v_rms;
+        let measures = observer.measures(family.system.parameters.kappa).unwrap_or_default();
         let at = family.values(&place);
         let multipliers = family.solver.multipliers()?;
         let condition = condition.renewed(&multipliers).ok_or(OrbitError::Multipliers)?;
@@ -84,7 +86,7 @@ impl Station {
             surface.direction(&place, condition, &derivative, like.map(|like| &like.direction))?;
         let tests = condition.tests(&multipliers).into_iter().zip(&direction.slopes);
         let tests = tests.map(|((kind, value), slope)| Test { kind, value, slope: *slope }).collect();
-        Ok(Self { place, direction, condition, multipliers, tests, halving, form, at, v_rms })
+        Ok(Self { place, direction, condition, multipliers, tests, halving, form, at, measures })
     }
 
     /// The value of the test for `kind` at a `place` beside this station, without what else [`Self::read`] reads.
@@ -132,7 +134,7 @@ impl Station {
 
     pub(super) fn point(&self, surface: &Surface) -> CurvePoint {
         let state = surface.family.state(&self.place);
-        CurvePoint { at: self.at, state, v_rms: self.v_rms, coefficient: self.coefficient() }
+        CurvePoint { at: self.at, state, measures: self.measures, coefficient: self.coefficient() }
     }
 
     /// The coefficient of the normal form, where it is finite.
