@@ -24,7 +24,7 @@ fn frame(page: &mut Page, width: u32, height: u32, query: &str) {
     page.script_with(script, vec![json!(width), json!(height), json!(format!("./{query}"))]);
     page.wait("the frame to start", |page| {
         let ready = "const inner = document.getElementById('frame').contentWindow; \
-            if (inner.document?.documentElement.dataset.phase !== 'ready') return false; \
+            if (inner.document?.documentElement?.dataset.phase !== 'ready') return false; \
             window.harvester = inner.harvester; return true;";
         (page.script(ready) == true).then_some(())
     });
