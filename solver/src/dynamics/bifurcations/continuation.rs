@@ -25,7 +25,7 @@ const LOCATED: f64 = 1e-9;
 const CLOSED: f64 = 1e-6;
 /// Secants that locate the place on the orbit of half the period.
 const MOST_SECANTS: usize = 12;
-/// The same for the return to a start.
+/// Largest difference from the orbit that a branch began with, in the units of its place, at which it has come back.
 const RETURNED: f64 = 1e-6;
 /// Distance from the unit circle beyond which a zero of a test function was not a change of stability.
 const ON_CIRCLE: f64 = 1e-4;
