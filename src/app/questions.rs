@@ -4,7 +4,7 @@ use super::map::{self, Boundaries};
 use super::session::Session;
 use super::view::{SweepView, View};
 use crate::dynamics::bifurcations::tongue::Window;
-use crate::model::{Parameter, ParameterSet, Shaking};
+use crate::model::{Along, Parameter, ParameterSet};
 use crate::questions::basin::Basin;
 use crate::questions::chart::{Chart, Quantity};
 use crate::questions::checks::Span;
@@ -60,9 +60,9 @@ pub(super) fn sweep(view: &View, session: &Session) -> (Scenario, Sweep) {
     let (from, to) = sweep_range(view, session);
     let anywhere = ParameterSet::default().get(parameter);
     let scenario = view.scenario.forgetting(&[Forgotten::Duration, Forgotten::Number(parameter, anywhere)]);
-    let (direction, shaking) = (Direction::Up, Shaking::Amplitude);
+    let (direction, along) = (Direction::Up, Along::default());
     let (transient, kept) = (dwell.discarded, dwell.kept);
-    (scenario, Sweep { parameter, from, to, count, direction, transient, kept, branches: true, shaking })
+    (scenario, Sweep { parameter, from, to, count, direction, transient, kept, branches: true, along })
 }
 
 /// The bifurcation curves in the plane in view; `None` when it is empty.

@@ -11,7 +11,7 @@ use super::response::{branches, branches_through, curve, point};
 use crate::dynamics::bifurcations::curves::{Criticality, normal_form};
 use crate::dynamics::orbits::period_map::MOST_PERIODS;
 use crate::dynamics::{self, Bifurcation, BranchEnd, BranchPoint, Effort, Instability, Motion, reach};
-use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem, Shaking};
+use crate::model::{Along, ModelError, Parameter, ParameterSet, ReducedSystem, Shaking};
 use crate::scenario::Scenario;
 use crate::scheduler::{Budget, Failure, Piece};
 
@@ -190,11 +190,11 @@ impl Continue {
 
     /// The ten numbers at a value of the parameter.
     fn set(&self, scenario: &Scenario, value: f64) -> ParameterSet {
-        self.hold.at(&scenario.parameters, self.parameter, value)
+        Along::from(self.hold).at(&scenario.parameters, self.parameter, value)
     }
 
     fn follow(&self, scenario: &Scenario) -> Result<Vec<Followed>, RequestError> {
-        let (moved, range) = ((self.parameter, self.hold), self.range());
+        let (moved, range) = ((self.parameter, self.hold.into()), self.range());
         if self.guess.is_none() && scenario.initial.is_none() {
             return Ok(branches(scenario, moved, range, self.doublings)?);
         }

@@ -162,7 +162,7 @@ impl Question for Curves {
 
 /// Bifurcations of the forced motion along a line across a plane of two parameters.
 #[derive(Debug, Clone, PartialEq, SerBin, DeBin)]
-pub struct Along {
+pub struct Crossings {
     /// The device and its other numbers.
     pub scenario: Scenario,
     /// The window.
@@ -173,7 +173,7 @@ pub struct Along {
     pub doubled: bool,
 }
 
-impl Piece for Along {
+impl Piece for Crossings {
     const NAME: &'static str = "line";
     type Found = Vec<Start>;
 
@@ -297,7 +297,7 @@ impl Study for CurvesStudy {
             })
         } else {
             let line = self.lines.pop()?;
-            Order::new(Along { scenario, plane, line, doubled }, |study: &mut Self, found| {
+            Order::new(Crossings { scenario, plane, line, doubled }, |study: &mut Self, found| {
                 study.returned += 1;
                 match found {
                     Ok(starts) => study.starts.extend(starts),

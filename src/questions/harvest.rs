@@ -7,21 +7,21 @@ use nanoserde::{DeBin, SerBin};
 use serde::{Deserialize, Serialize};
 
 use super::checks::{Span, class};
-use super::continuation::Response;
 use super::design::band::{half_power, total, usable};
-use super::design::change::{Way as ChangeWay, between};
+use super::design::change::{Way as ChangeWay, between, from_rest};
 use super::design::linear::{LinearCurve, linear_curve};
 use super::design::point::powers;
-use super::design::{Bounds, DesignError, HarvestPoint, Interval, Operating, Plant, operating};
+use super::design::{
+    Bounds, DesignError, HarvestPoint, Interval, Operating, Plant, delivering_branches, operating,
+};
 use super::error::{RequestError, failed};
-use super::motions::{Coordinate, MotionPlane, Motions};
 use super::question::Question;
-use super::response::{ResponseCurve, ResponsePoint, check_range};
+use super::response::{ResponseCurve, ResponsePoint, check_range, curve};
 use super::subject::ACCELERATION_UNIT;
 use super::sweep::{COUNTS, Direction, Sweep, SweepStudy};
-use crate::dynamics::Motion;
-use crate::dynamics::attractors::signature::Signature;
+use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::attractors::sweep::{Dwell, SweepPoint};
+use crate::dynamics::{IntegrationError, Motion, RunError};
 use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
@@ -223,6 +223,55 @@ impl Piece for Deliver {
     }
 }
 
+/// The branches of periodic motions over frequency.
+#[derive(Debug, Clone, PartialEq, SerBin, DeBin)]
+pub struct Branches {
+    /// The device.
+    pub scenario: Scenario,
+    /// What of the base's motion stays at other frequencies.
+    pub shaking: Shaking,
+    /// Lowest and highest omega (dimensionless).
+    pub window: (f64, f64),
+}
+
+impl Piece for Branches {
+    const NAME: &'static str = "harvest_branches";
+    type Found = Vec<ResponseCurve>;
+
+    fn carry_out(&self) -> Result<Self::Found, Failure> {
+        let plant = Plant::new(&self.scenario)?.shaken(self.shaking);
+        Ok(delivering_branches(&plant, self.window)?.iter().map(curve).collect())
+    }
+}
+
+/// Starts from rest at several frequencies.
+#[derive(Debug, Clone, PartialEq, SerBin, DeBin)]
+pub struct Starts {
+    /// The device.
+    pub scenario: Scenario,
+    /// What of the base's motion stays at other frequencies.
+    pub shaking: Shaking,
+    /// The frequencies (omega, dimensionless).
+    pub omegas: Vec<f64>,
+}
+
+impl Piece for Starts {
+    const NAME: &'static str = "harvest_starts";
+    /// The motion reached at each; nothing where it cannot be integrated.
+    type Found = Vec<Option<Cell>>;
+
+    fn carry_out(&self) -> Result<Self::Found, Failure> {
+        let plant = Plant::new(&self.scenario)?.shaken(self.shaking);
+        let start = |omega: &f64| match from_rest(&plant, *omega) {
+            Err(DesignError::Run(RunError::Integration(
+                IntegrationError::StepTooSmall { .. } | IntegrationError::TooManySteps { .. },
+            ))) => Ok(None),
+            found => Ok(Some(found?)),
+        };
+        self.omegas.iter().map(start).collect()
+    }
+}
+
 /// Where a curve over frequency changes its motion.
 #[derive(Debug, Clone, PartialEq, SerBin, DeBin)]
 pub struct Between {
@@ -287,8 +336,7 @@ pub struct HarvestStudy {
 }
 
 impl HarvestStudy {
-    /// The curves of `scenario` over the frequencies (Hz); its omega and its start play no role, except that the dielectric
-    /// loss is that at its omega. The linear device is known at once, the rest is to be computed.
+    /// The curves of `scenario` over the frequencies (Hz); its omega and its start play no role. The linear device is known at once, the rest is to be computed.
     ///
     /// # Errors
     /// [`DesignError`] naming what is out of range.
@@ -312,7 +360,7 @@ impl HarvestStudy {
             transient: question.dwell.discarded,
             kept: question.dwell.kept,
             branches: false,
-            shaking: question.hold,
+            along: plant.along,
         };
         let linear = linear_curve(&plant, window, count)?;
         Ok(Self {
@@ -489,20 +537,13 @@ impl HarvestStudy {
             return None;
         }
         self.starts_handed = end;
-        let (low, high) = (self.plant.beta_at(self.window.0), self.plant.beta_at(self.window.1));
-        let plane = MotionPlane {
-            scenario: Scenario { initial: None, ..self.plant.scenario.clone() },
-            x: (Coordinate::Parameter(Parameter::Omega), self.window),
-            y: (Coordinate::Parameter(Parameter::Beta), (low, high)),
-            size: (self.starts.len(), 1),
-        };
-        let places =
-            (begin..end).map(|index| [self.omega(index), self.plant.beta_at(self.omega(index))]).collect();
-        Some(Order::new(Motions { plane, places }, move |study: &mut Self, found| {
+        let omegas = (begin..end).map(|index| self.omega(index)).collect();
+        let (scenario, shaking) = (self.asked.0.clone(), self.asked.1.hold);
+        Some(Order::new(Starts { scenario, shaking, omegas }, move |study: &mut Self, found| {
             match found {
                 Ok(found) => {
-                    for (index, signature) in (begin..).zip(found) {
-                        study.starts[index] = Some(study.start_at(index, signature));
+                    for (index, cell) in (begin..).zip(found) {
+                        study.starts[index] = Some(study.start_at(index, cell));
                     }
                 }
                 Err(message) => study.failure = Some(message),
@@ -512,8 +553,8 @@ impl HarvestStudy {
     }
 
     /// What a start from rest leads to at the frequency of this index.
-    fn start_at(&self, index: usize, signature: Option<Signature>) -> Option<(Motion, HarvestPoint)> {
-        let cell = signature?.cell;
+    fn start_at(&self, index: usize, cell: Option<Cell>) -> Option<(Motion, HarvestPoint)> {
+        let cell = cell?;
         cell.demand()?;
         let point = HarvestPoint::new(&self.plant, self.omega(index), &cell.measures);
         Some((cell.motion, point))
@@ -542,8 +583,8 @@ impl Study for HarvestStudy {
             return None;
         }
         if !std::mem::replace(&mut self.branches_handed, true) {
-            let (scenario, hold) = (&self.plant.scenario, self.asked.1.hold);
-            let piece = Response::forced(scenario, Parameter::Omega, hold, self.window);
+            let (scenario, shaking) = (self.asked.0.clone(), self.asked.1.hold);
+            let piece = Branches { scenario, shaking, window: self.window };
             return Some(Order::new(piece, |study: &mut Self, found| study.branches = Some(found)));
         }
         let sweep = self

@@ -3,9 +3,9 @@
 use super::answers::{Answers, Solve};
 use super::basin::BasinStudy;
 use super::continuation::Response;
-use super::curves::{Along, CurvesStudy, Trace};
+use super::curves::{Crossings, CurvesStudy, Trace};
 use super::find::{Evaluate, FindStudy};
-use super::harvest::{Between, Deliver, HarvestStudy};
+use super::harvest::{Between, Branches, Deliver, HarvestStudy, Starts};
 use super::inspection::Inspect;
 use super::load::{BestAt, Forced, LoadStudy, Reached};
 use super::map::DesignMap;
@@ -51,9 +51,11 @@ pub const HANDS: &[Hand] = &[
     Hand::of::<Columns>(),
     Hand::of::<Response>(),
     Hand::of::<Stretch>(),
-    Hand::of::<Along>(),
+    Hand::of::<Crossings>(),
     Hand::of::<Trace>(),
     Hand::of::<Motions>(),
+    Hand::of::<Branches>(),
+    Hand::of::<Starts>(),
     Hand::of::<Between>(),
     Hand::of::<Forced>(),
     Hand::of::<Reached>(),

@@ -73,7 +73,7 @@ mod tests {
     use std::fmt::Debug;
 
     use super::*;
-    use crate::model::{Parameter, Shaking};
+    use crate::model::{Along, Parameter};
     use crate::questions::basin::Basin;
     use crate::questions::chart::{Chart, Quantity};
     use crate::questions::checks::Span;
@@ -110,7 +110,7 @@ mod tests {
             transient: 10,
             kept: 2,
             branches: true,
-            shaking: Shaking::Amplitude,
+            along: Along::default(),
         };
         again(&sweep, &scenario);
     }

@@ -9,7 +9,7 @@ use crate::dynamics::{
     Bifurcation, Branch, BranchEnd, BranchPoint, Course, Instability, Measures, Orbit, OrbitError,
     follow_branch, follow_doubled,
 };
-use crate::model::{ModelError, Parameter, Shaking};
+use crate::model::{Along, ModelError, Parameter};
 use crate::scenario::Scenario;
 
 /// Most points of a branch.
@@ -56,13 +56,13 @@ pub struct ResponseCurve {
 }
 
 /// The forced motion of the device of `scenario` while a parameter goes through `range`, and the doubled ones that leave it;
-/// `moved` is that parameter, and what of the base's motion stays meanwhile.
+/// `moved` is that parameter, and what follows the frequency meanwhile.
 ///
 /// # Errors
 /// [`OrbitError`] when the device is not valid at the low end, or has no forced motion at either end.
 pub fn response(
     scenario: &Scenario,
-    moved: (Parameter, Shaking),
+    moved: (Parameter, Along),
     range: (f64, f64),
 ) -> Result<Vec<ResponseCurve>, OrbitError> {
     Ok(branches(scenario, moved, range, DOUBLINGS)?.iter().map(curve).collect())
@@ -111,7 +111,7 @@ struct Following<'a> {
 
 /// Follows the forced motion of the device of `scenario` while a parameter goes through `range`, from the low end and, where
 /// it does not come through, from the high end too; then so many `doublings` of the branches' periods. `moved` is that
-/// parameter, and what of the base's motion stays meanwhile.
+/// parameter, and what follows the frequency meanwhile.
 ///
 /// The forced motion at an end is the one that Newton's iteration reaches from the linear response there. Branches that
 /// touch none of these, such as isolas, are not found.
@@ -120,7 +120,7 @@ struct Following<'a> {
 /// [`OrbitError`] when the device is not valid at the low end, or has no forced motion at either end.
 pub(in crate::questions) fn branches(
     scenario: &Scenario,
-    moved: (Parameter, Shaking),
+    moved: (Parameter, Along),
     range: (f64, f64),
     doublings: usize,
 ) -> Result<Vec<Followed>, OrbitError> {
@@ -147,7 +147,7 @@ pub(in crate::questions) fn branches(
 /// [`OrbitError`] when the device is not valid, or the orbit is exactly a bifurcation.
 pub(in crate::questions) fn branches_through(
     scenario: &Scenario,
-    (parameter, shaking): (Parameter, Shaking),
+    (parameter, along): (Parameter, Along),
     range: (f64, f64),
     orbit: &Orbit,
     doublings: usize,
@@ -156,7 +156,7 @@ pub(in crate::questions) fn branches_through(
     let value = scenario.parameters.get(parameter);
     let upwards = value < range.1;
     let course =
-        Course { parameter, shaking, range, periods: orbit.periods, upwards, most_points: MOST_POINTS };
+        Course { parameter, along, range, periods: orbit.periods, upwards, most_points: MOST_POINTS };
     let follow = |upwards: bool| {
         let mut branch = follow_branch(&system, &orbit.state, &Course { upwards, ..course })?;
         // Without rounding.
@@ -198,14 +198,14 @@ fn joined(mut back: Branch, mut forth: Branch) -> (Branch, BranchEnd) {
 
 fn forced(
     scenario: &Scenario,
-    (parameter, shaking): (Parameter, Shaking),
+    (parameter, along): (Parameter, Along),
     range: (f64, f64),
     upwards: bool,
 ) -> Result<(Branch, Course), OrbitError> {
-    let set = shaking.at(&scenario.parameters, parameter, if upwards { range.0 } else { range.1 });
+    let set = along.at(&scenario.parameters, parameter, if upwards { range.0 } else { range.1 });
     let system = scenario.model.system(set)?;
     let orbit = Orbit::find(&system, None, 1)?;
-    let course = Course { parameter, shaking, range, periods: 1, upwards, most_points: MOST_POINTS };
+    let course = Course { parameter, along, range, periods: 1, upwards, most_points: MOST_POINTS };
     Ok((follow_branch(&system, &orbit.state, &course)?, course))
 }
 
@@ -306,7 +306,7 @@ mod tests {
         let parameters = ParameterSet { alpha: 1e-4, beta: 0.01, omega: 8.0969, ..Default::default() };
         let scenario = Scenario { parameters, ..Default::default() };
         let curves =
-            response(&scenario, (Parameter::Omega, Shaking::Amplitude), (7.5, 8.8)).expect("a response");
+            response(&scenario, (Parameter::Omega, Along::default()), (7.5, 8.8)).expect("a response");
         assert_eq!(curves[0].periods, 1);
         // The motion of the figure, by interpolation on the stable doubled branch: 14.1783 V rms.
         let doubled = curves.iter().filter(|curve| curve.periods == 2);
@@ -328,7 +328,7 @@ mod tests {
         let parameters = ParameterSet { alpha: 1e-3, beta: 7.5e-4, ..Default::default() };
         let scenario = Scenario { parameters, model, ..Default::default() };
         let curves =
-            response(&scenario, (Parameter::Omega, Shaking::Amplitude), (7.9, 8.8)).expect("a response");
+            response(&scenario, (Parameter::Omega, Along::default()), (7.9, 8.8)).expect("a response");
         let kinds =
             |curve: &ResponseCurve| curve.changes.iter().map(|change| change.kind).collect::<Vec<_>>();
         let found: Vec<_> = curves.iter().map(|curve| (curve.periods, kinds(curve))).collect();

@@ -10,7 +10,7 @@ use super::error::{RequestError, failed};
 use super::question::Question;
 use super::response::{ResponseCurve, response};
 use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
-use crate::model::{Parameter, Shaking};
+use crate::model::{Along, Parameter};
 use crate::scenario::Scenario;
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
 use crate::spacing::equally_spaced;
@@ -57,9 +57,9 @@ pub struct Sweep {
     /// Whether the branches of periodic motions are followed too.
     #[serde(default)]
     pub branches: bool,
-    /// How the base is shaken meanwhile; requests leave it as it is.
+    /// What follows the frequency meanwhile; requests leave it as it is.
     #[serde(skip)]
-    pub shaking: Shaking,
+    pub along: Along,
 }
 
 const fn default_count() -> usize {
@@ -87,7 +87,7 @@ impl Sweep {
 
     /// The branches of periodic motions over its range; no start leads to them.
     pub fn response(&self, scenario: &Scenario) -> Response {
-        Response::forced(scenario, self.parameter, self.shaking, self.range())
+        Response::forced(scenario, self.parameter, self.along.shaking, self.range())
     }
 
     /// The values in the order of `direction`.
@@ -134,7 +134,7 @@ impl Question for Sweep {
         let mut study = SweepStudy::new(scenario.clone(), self.clone(), &[self.direction]);
         complete_within(&mut study, budget);
         failed(study.failure())?;
-        let follow = || response(&scenario, (self.parameter, self.shaking), self.range());
+        let follow = || response(&scenario, (self.parameter, self.along), self.range());
         let branches = self.branches.then(|| budget.piece(follow)).flatten().transpose()?;
         if branches.iter().flatten().any(|branch| branch.cut) {
             budget
@@ -151,8 +151,8 @@ pub struct Stretch {
     pub scenario: Scenario,
     /// What is swept.
     pub parameter: Parameter,
-    /// How the base is shaken meanwhile.
-    pub shaking: Shaking,
+    /// What follows the frequency meanwhile.
+    pub along: Along,
     /// Its values in the order in which they are visited.
     pub values: Vec<f64>,
     /// State carried over from the value before (length 2N + 1).
@@ -180,7 +180,7 @@ impl Piece for Stretch {
             set: &self.scenario.parameters,
             model: self.scenario.model,
             parameter: self.parameter,
-            shaking: self.shaking,
+            along: self.along,
             start: &start,
             dwell: self.dwell,
         };
@@ -270,7 +270,7 @@ impl Study for SweepStudy {
         let stretch = Stretch {
             scenario: scenario.clone(),
             parameter: question.parameter,
-            shaking: question.shaking,
+            along: question.along,
             values,
             state: way.state.clone(),
             dwell: question.dwell(),

@@ -7,15 +7,15 @@ use harvester_lab::dynamics::bifurcations::curves::Line;
 use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{Axis, Plane};
 use harvester_lab::model::materials::Ceramic;
-use harvester_lab::model::{ForceLaw, Limits, Parameter, ParameterSet, Shaking};
+use harvester_lab::model::{Along, ForceLaw, Limits, Parameter, ParameterSet, Shaking};
 use harvester_lab::questions::answers::Solve;
 use harvester_lab::questions::continuation::{Continue, Response};
-use harvester_lab::questions::curves::{Along, Trace};
+use harvester_lab::questions::curves::{Crossings, Trace};
 use harvester_lab::questions::design::change::Way;
 use harvester_lab::questions::design::find::{FindQuestion, Objective, Variable};
 use harvester_lab::questions::design::trust::Quantity;
 use harvester_lab::questions::find::Evaluate;
-use harvester_lab::questions::harvest::{Between, Deliver};
+use harvester_lab::questions::harvest::{Between, Branches, Deliver, Starts};
 use harvester_lab::questions::inspection::Inspect;
 use harvester_lab::questions::list::{self, HANDS, TASKS};
 use harvester_lab::questions::load::{BestAt, Forced, Reached};
@@ -72,8 +72,8 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
         limits: Limits::default(),
     };
     let line = Line { along: 0, at: 0.01 };
-    let along = Along { scenario: scenario.clone(), plane: plane(), line, doubled: false };
-    let starts = along.carry_out().expect("starts");
+    let crossings = Crossings { scenario: scenario.clone(), plane: plane(), line, doubled: false };
+    let starts = crossings.carry_out().expect("starts");
     let mut names = vec![
         sent(&Solve { request: "{\"task\":\"modes\"}".to_owned() }),
         sent(&Deliver { scenario: scenario.clone() }),
@@ -95,12 +95,12 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
         sent(&Stretch {
             scenario: scenario.clone(),
             parameter,
-            shaking: Shaking::Amplitude,
+            along: Along { shaking, dielectric: 1e-8 },
             values: vec![25.3, 25.4],
             state: state.clone(),
             dwell: Dwell { discarded: 20, kept: 8 },
         }),
-        sent(&along),
+        sent(&crossings),
         sent(&Trace {
             scenario: scenario.clone(),
             plane: plane(),
@@ -115,6 +115,8 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
             },
             places: vec![[0.0, 1e-3]],
         }),
+        sent(&Branches { scenario: scenario.clone(), shaking, window: (8.0, 8.2) }),
+        sent(&Starts { scenario: scenario.clone(), shaking, omegas: vec![25.2, 25.3] }),
         sent(&Between {
             scenario: scenario.clone(),
             shaking,

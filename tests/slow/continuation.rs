@@ -5,7 +5,7 @@ use harvester_lab::dynamics::{
     Branch, BranchEnd, Course, Instability, Orbit, Settings, Trajectory, critical_excitation, follow_branch,
     follow_doubled,
 };
-use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, Parameters, ReducedSystem, Shaking};
+use harvester_lab::model::{Along, ForceLaw, Parameter, ParameterSet, Parameters, ReducedSystem};
 
 fn system(law: ForceLaw, beta: f64, omega: f64) -> Fallible<ReducedSystem> {
     let set = ParameterSet { alpha: 1e-4, beta, omega, ..Default::default() };
@@ -13,7 +13,7 @@ fn system(law: ForceLaw, beta: f64, omega: f64) -> Fallible<ReducedSystem> {
 }
 
 fn course(parameter: Parameter, range: (f64, f64)) -> Course {
-    Course { parameter, shaking: Shaking::Amplitude, range, periods: 1, upwards: true, most_points: 600 }
+    Course { parameter, along: Along::default(), range, periods: 1, upwards: true, most_points: 600 }
 }
 
 fn kinds(branch: &Branch) -> Vec<Instability> {

@@ -6,7 +6,7 @@ use harvester_lab::dynamics::{
     Course, CriticalExcitation, Instability, Orbit, critical_excitation, follow_branch, largest_multipliers,
     trace_tongue,
 };
-use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, Parameters, ReducedSystem, Shaking};
+use harvester_lab::model::{Along, ForceLaw, Parameter, ParameterSet, Parameters, ReducedSystem};
 use harvester_lab::theory::{CoupledModes, Resonance};
 
 fn system(alpha: f64, modes: usize, law: ForceLaw) -> Fallible<ReducedSystem> {
@@ -59,7 +59,7 @@ fn a_forced_motion_that_ends_first() -> TestResult {
         return Err("the motion should end".into());
     };
     let course = Course {
-        shaking: Shaking::Amplitude,
+        along: Along::default(),
         parameter: Parameter::Beta,
         range: (0.0, 0.04),
         periods: 1,

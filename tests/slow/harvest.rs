@@ -5,13 +5,17 @@
 use crate::{Fallible, TestResult};
 use std::f64::consts::TAU;
 
-use harvester_lab::dynamics::{Balance, Motion, Orbit, Settings, Trajectory};
+use harvester_lab::dynamics::{Balance, Effort, Motion, Orbit, Settings, Trajectory, reach};
 use harvester_lab::model::limits::Standing;
 use harvester_lab::model::materials::Ceramic;
 use harvester_lab::model::{Device, ElectricalScaling, ForceLaw, Limits, ParameterSet, ReducedSystem};
+use harvester_lab::questions::checks::Span;
 use harvester_lab::questions::design::linear::{linear_at_its_best, linear_curve};
-use harvester_lab::questions::design::{Plant, operating};
+use harvester_lab::questions::design::{HarvestPoint, Plant, operating};
+use harvester_lab::questions::harvest::{Harvest, HarvestStudy};
+use harvester_lab::questions::sweep::Direction;
 use harvester_lab::scenario::{ModelChoice, Scenario};
+use harvester_lab::scheduler::complete;
 use harvester_lab::theory::{LinearResponse, Source};
 use nalgebra::Complex;
 
@@ -171,6 +175,54 @@ fn every_harvest_keeps_its_energy() -> TestResult {
     let v_rms = (sum / count as f64).sqrt();
     assert!((v_rms / harvest.measures.v_rms - 1.0).abs() < 2e-3, "{v_rms} {}", harvest.measures.v_rms);
     assert_eq!(operating(&figure_9())?.reached.dielectric_frequency, None);
+    Ok(())
+}
+
+#[test]
+fn every_motion_of_a_curve_has_the_dielectric_loss_of_its_own_frequency() -> TestResult {
+    // As lossy as a ceramic never is, so that it shows.
+    let mut lossy = figure_9();
+    let device = Device { loss_tangent: 0.5, ..lossy.device()? };
+    lossy.set_device(device, ElectricalScaling::AsPrinted)?;
+    let units = lossy.units();
+    let frequency = Span { from: units.hertz(7.2), to: units.hertz(8.15), count: 20 };
+    let mut study = HarvestStudy::new(lossy.clone(), Harvest::default(), frequency)?;
+    complete(&mut study);
+    assert_eq!(study.failure(), None);
+    // The conductance of the load, and of the dielectric at the frequency of the voltage, added by hand.
+    let v_rms = |omega: f64, periods: usize| -> Fallible<Option<f64>> {
+        let mut whole = ParameterSet { omega, ..lossy.parameters };
+        whole.kappa += 0.5 * omega / periods as f64 * whole.c;
+        let reached = reach(&lossy.model.system(whole)?, &[0.0; 5], Effort::full())?;
+        // Rest may lead elsewhere than to this motion of a branch.
+        let orbit = reached.orbit.filter(|_| reached.motion == Motion::Periodic { periods });
+        Ok(orbit.map(|orbit| orbit.measures.v_rms))
+    };
+    let mut seen = [0, 0];
+    let mut agrees = |point: &HarvestPoint, periods: usize| -> TestResult {
+        let Some(expected) = v_rms(units.omega(point.frequency), periods)? else { return Ok(()) };
+        assert!((point.measures.v_rms / expected - 1.0).abs() < 1e-6, "{periods}: {point:?} {expected}");
+        seen[periods - 1] += 1;
+        Ok(())
+    };
+    for (index, start) in study.from_rest().iter().enumerate() {
+        let Some((Motion::Periodic { periods }, point)) = start.flatten() else { continue };
+        agrees(&point, periods)?;
+        if let Some(swept) = study.swept(Direction::Up)[index].filter(|_| periods == 1) {
+            agrees(&swept, 1)?;
+        }
+    }
+    for curve in study.branches().ok_or("known")?.map_err(ToString::to_string)? {
+        let stable = study.branch_points(curve).into_iter().filter(|(point, stable)| {
+            // Beside its birth the doubled motion has its main line at the excitation's frequency, still.
+            let strong = curve.periods == 1 || point.measures.v_rms > 5.0;
+            *stable && strong && (7.3..8.12).contains(&units.omega(point.frequency))
+        });
+        for (point, _) in stable.step_by(3) {
+            agrees(&point, curve.periods)?;
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 4), "{seen:?}");
     Ok(())
 }
 

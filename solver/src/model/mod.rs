@@ -1,5 +1,6 @@
 //! Section 2 of the paper, in its order: device, parameters, magnet, modes, the reduced system.
 
+mod along;
 pub mod choice;
 pub mod device;
 pub mod dimension;
@@ -17,9 +18,9 @@ mod open_circuit;
 pub mod parameters;
 pub mod quadrature;
 pub mod reduced;
-mod shaking;
 pub mod units;
 
+pub use along::{Along, Shaking};
 pub use choice::ModelChoice;
 pub use device::ElectricalScaling;
 pub use dimension::{Device, Dimension};
@@ -31,7 +32,6 @@ pub use magnet::{Equilibrium, Magnet};
 pub use modes::{Mode, ModeSet};
 pub use parameters::{Parameter, ParameterSet, Parameters};
 pub use reduced::ReducedSystem;
-pub use shaking::Shaking;
 pub use units::{STANDARD_GRAVITY, Units};
 
 /// Largest number of modes a truncation may keep (dimensionless count).

@@ -7,7 +7,7 @@ use crate::app::view::View;
 use crate::app::view::design::{Aim, Side};
 use crate::app::widgets::number::round_significant;
 
-use crate::model::{Dimension, Parameter, ParameterSet, Scale, Shaking};
+use crate::model::{Along, Dimension, Parameter, ParameterSet, Scale, Shaking};
 use crate::questions::checks::Span;
 use crate::questions::design::find::{FindQuestion, Objective, Variable};
 use crate::questions::harvest::Harvest;
@@ -36,15 +36,11 @@ pub(in crate::app) fn shaking(view: &View) -> Shaking {
     if view.design.holds_acceleration { Shaking::Acceleration } else { Shaking::Amplitude }
 }
 
-/// The scenario at rest where the frequency of a curve begins, for one in which the present frequency plays no role; a
-/// dielectric loss is that at the present one.
+/// The scenario at rest where the frequency of a curve begins, for one in which the present frequency plays no role.
 fn at_the_beginning(view: &View, window: (f64, f64)) -> Scenario {
     let scenario = view.scenario.forgetting(&[Forgotten::Start, Forgotten::Duration]);
-    if scenario.base().loss_tangent > 0.0 {
-        return scenario;
-    }
     // Rounded, so that going along the curve and back makes no other question.
-    let set = shaking(view).at(&scenario.parameters, Parameter::Omega, window.0);
+    let set = Along::from(shaking(view)).at(&scenario.parameters, Parameter::Omega, window.0);
     let beta = Forgotten::Number(Parameter::Beta, round_significant(set.beta, 12));
     scenario.forgetting(&[Forgotten::Number(Parameter::Omega, set.omega), beta])
 }

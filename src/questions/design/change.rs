@@ -2,8 +2,9 @@
 //! a line across the jump.
 
 use super::{DesignError, HarvestPoint, Plant};
+use crate::dynamics::Effort;
+use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, sweep};
-use crate::dynamics::{Effort, reach};
 use crate::model::{Parameter, Shaking};
 use crate::scenario::Scenario;
 
@@ -122,11 +123,19 @@ fn next(plant: &Plant, way: &Way, before: &Place, omega: f64) -> Result<Place, D
     }
 }
 
-fn at_rest(plant: &Plant, omega: f64) -> Result<Place, DesignError> {
-    let set = plant.shaking.at(&plant.scenario.parameters, Parameter::Omega, omega);
+/// What the start from rest at `omega` (dimensionless) leads to.
+///
+/// # Errors
+/// [`DesignError`] when a number is out of range or the motion cannot be followed.
+pub fn from_rest(plant: &Plant, omega: f64) -> Result<Cell, DesignError> {
+    let set = plant.along.at(&plant.scenario.parameters, Parameter::Omega, omega);
     let system = plant.scenario.model.system(set)?;
     let rest = vec![0.0; system.dimension()];
-    let cell = reach(&system, &rest, Effort::cell())?.cell();
+    Ok(plant.reach(&system, &rest, Effort::cell())?.1.reached.cell())
+}
+
+fn at_rest(plant: &Plant, omega: f64) -> Result<Place, DesignError> {
+    let cell = from_rest(plant, omega)?;
     let point = cell.lasts().then(|| HarvestPoint::new(plant, omega, &cell.measures));
     Ok(Place { omega, from: omega, point, state: None })
 }
@@ -139,8 +148,8 @@ fn swept(
 ) -> Result<Place, DesignError> {
     let Scenario { parameters, model, .. } = &plant.scenario;
     let rest = vec![0.0; model.system(*parameters)?.dimension()];
-    let (set, parameter, shaking) = (parameters, Parameter::Omega, plant.shaking);
-    let course = SweepCourse { set, model: *model, parameter, shaking, start: &rest, dwell };
+    let (set, parameter, along) = (parameters, Parameter::Omega, plant.along);
+    let course = SweepCourse { set, model: *model, parameter, along, start: &rest, dwell };
     let (points, state) = sweep(course, values, state)?;
     let last = points.last().filter(|point| !point.ended);
     let point = last.map(|point| HarvestPoint::new(plant, point.value, &point.measures));

@@ -3,9 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::dielectric::{Settled, settle};
 use super::linear::linear_balance;
 use super::{DesignError, Plant};
+use crate::dynamics::attractors::dielectric::{WithLoss, orbit_with_loss};
 use crate::dynamics::{Balance, Effort, ForcedMotion, Measures, Motion};
 use crate::model::{Demand, ReducedSystem};
 use crate::scenario::Scenario;
@@ -116,11 +116,15 @@ pub fn operating(scenario: &Scenario) -> Result<Operating, DesignError> {
     let linear = Harvest::new(&plant, &bare, &linear_balance(&bare)?);
     let forced = match ForcedMotion::of(&system).ok().and_then(|forced| forced.orbit) {
         None => None,
-        Some(orbit) => Balance::of(&system, &orbit.state, orbit.periods)?.map(|balance| Forced {
-            harvest: Harvest::new(&plant, &system, &balance),
-            stable: orbit.stable(),
-            multiplier: orbit.largest_multiplier().norm(),
-        }),
+        Some(orbit) => {
+            let own = orbit_with_loss(&system, plant.along, (&orbit.state, orbit.periods))?;
+            let (system, orbit) = own.unwrap_or_else(|| (system.clone(), orbit));
+            Balance::of(&system, &orbit.state, orbit.periods)?.map(|balance| Forced {
+                harvest: Harvest::new(&plant, &system, &balance),
+                stable: orbit.stable(),
+                multiplier: orbit.largest_multiplier().norm(),
+            })
+        }
     };
     let reached = lasting(&plant, &system, &initial)?;
     let least = linear.measures.power;
@@ -141,9 +145,10 @@ pub fn operating(scenario: &Scenario) -> Result<Operating, DesignError> {
 /// The motion that the start of `system`, one of `plant`, in `initial` leads to.
 ///
 /// # Errors
-/// As [`reach`](crate::dynamics::reach), and when the conductance of the dielectric loss is out of range.
+/// As [`Plant::reach`].
 pub fn lasting(plant: &Plant, system: &ReducedSystem, initial: &[f64]) -> Result<Lasting, DesignError> {
-    let Settled { plant, system, reached, omega } = settle(plant, system, initial, Effort::cell())?;
+    let (plant, found) = plant.reach(system, initial, Effort::cell())?;
+    let WithLoss { system, reached, line } = found;
     let motion = reached.motion;
     let balance = match (&reached.orbit, motion) {
         (_, Motion::Escape { .. } | Motion::Contact { .. }) => None,
@@ -153,6 +158,6 @@ pub fn lasting(plant: &Plant, system: &ReducedSystem, initial: &[f64]) -> Result
     Ok(Lasting {
         motion,
         harvest: balance.map(|balance| Harvest::new(&plant, &system, &balance)),
-        dielectric_frequency: omega.map(|omega| plant.units.hertz(omega)),
+        dielectric_frequency: line.map(|line| plant.units.hertz(line)),
     })
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{DesignError, Interval, Plant};
 use crate::dynamics::{Balance, Measures};
-use crate::model::ReducedSystem;
+use crate::model::{Parameter, ReducedSystem};
 use crate::scenario::Scenario;
 use crate::spacing::equally_spaced;
 use crate::theory::{LinearResponse, spectrum::eigenvalues};
@@ -76,14 +76,14 @@ pub struct LinearCurve {
 pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<LinearCurve, DesignError> {
     let system = plant.without_magnets()?;
     let units = &plant.units;
-    let at = |omega: f64| -> Result<[f64; 5], DesignError> {
-        let response = LinearResponse::new(&system.with_excitation(plant.beta_at(omega), omega)?)?;
+    let point = |omega: f64| -> Result<[f64; 5], DesignError> {
+        let response = LinearResponse::new(&at(plant, &system, omega)?)?;
         let v_rms = response.voltage.norm() * std::f64::consts::FRAC_1_SQRT_2;
         let tip = units.millimetres(response.tip().norm());
         Ok([units.hertz(omega), v_rms, plant.watts(v_rms), tip, slope(&system, &response)])
     };
     // An undamped device has no steady state at its resonance.
-    let power = |omega: f64| at(omega).map_or(f64::INFINITY, |point| point[2]);
+    let power = |omega: f64| point(omega).map_or(f64::INFINITY, |point| point[2]);
     let omegas = frequencies(&system, window, count)?;
     let place = peak(power, &omegas);
     let half = 0.5 * power(place);
@@ -91,13 +91,18 @@ pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<L
     let above = omegas.iter().copied().find(|omega| *omega > place && power(*omega) < half);
     let border = |outside: f64| units.hertz(crossing(|omega| power(omega) >= half, place, outside));
     Ok(LinearCurve {
-        points: omegas.iter().filter_map(|omega| at(*omega).ok()).collect(),
+        points: omegas.iter().filter_map(|omega| point(*omega).ok()).collect(),
         peak: [units.hertz(place), power(place)],
         half_power: Interval {
             from: below.map_or(units.hertz(window.0), border),
             to: above.map_or(units.hertz(window.1), border),
         },
     })
+}
+
+/// `system`, one of `plant`, at another `omega` (dimensionless).
+fn at(plant: &Plant, system: &ReducedSystem, omega: f64) -> Result<ReducedSystem, DesignError> {
+    Ok(system.with_numbers(plant.along.at(&system.parameters, Parameter::Omega, omega))?)
 }
 
 /// Where the linear device of `plant` gives most for `omega` (dimensionless) in `window`, and how much (W).
@@ -107,10 +112,7 @@ pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<L
 pub fn linear_peak(plant: &Plant, window: (f64, f64)) -> Result<(f64, f64), DesignError> {
     let system = plant.without_magnets()?;
     let power = |omega: f64| {
-        let response = system
-            .with_excitation(plant.beta_at(omega), omega)
-            .ok()
-            .and_then(|at| LinearResponse::new(&at).ok());
+        let response = at(plant, &system, omega).and_then(|there| Ok(LinearResponse::new(&there)?)).ok();
         let square = |response: LinearResponse| 0.5 * response.voltage.norm_sqr();
         response.map_or(f64::INFINITY, |response| plant.units.watts(plant.load * square(response)))
     };

@@ -3,15 +3,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::dielectric::{Settled, settle};
 use super::linear::linear_peak;
 use super::peak::{Peak, highest};
-use super::{Bounds, DesignError, Plant};
+use super::{Bounds, DesignError, Plant, delivering_branches};
 use crate::dynamics::Effort;
+use crate::dynamics::attractors::dielectric::{WithLoss, orbit_with_loss};
 use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::{ForcedMotion, Measures, Motion, Orbit, OrbitError};
 use crate::model::{Limits, ModelError, Parameter, ReducedSystem, Shaking};
-use crate::questions::response::{DOUBLINGS, Followed, branches};
+use crate::questions::response::Followed;
 use crate::scenario::Scenario;
 use crate::theory::{Source, TheoryError};
 
@@ -69,10 +69,14 @@ pub fn forced_loads(scenario: &Scenario, resistances: &[f64]) -> Result<Vec<Opti
             Some(orbit) => Some(orbit),
             None => followed(&system)?,
         };
-        let motion = Motion::Periodic { periods: 1 };
-        points.push(
-            known.as_ref().map(|orbit| LoadPoint::new(&plant, motion, orbit.stable(), &orbit.measures)),
-        );
+        let mut point = None;
+        if let Some(orbit) = &known {
+            let own = orbit_with_loss(&system, plant.along, (&orbit.state, 1)).ok().flatten();
+            let orbit = own.as_ref().map_or(orbit, |(_, own)| own);
+            let motion = Motion::Periodic { periods: 1 };
+            point = Some(LoadPoint::new(&plant, motion, orbit.stable(), &orbit.measures));
+        }
+        points.push(point);
     }
     Ok(points)
 }
@@ -107,7 +111,7 @@ pub fn reached_loads(
         let plant = plant.with_resistance(*resistance)?;
         let system = plant.system()?;
         let from = carried.as_ref().unwrap_or(&start);
-        let Settled { plant, reached, .. } = settle(&plant, &system, from, Effort::cell())?;
+        let (plant, WithLoss { reached, .. }) = plant.reach(&system, from, Effort::cell())?;
         let Cell { motion, measures } = reached.cell();
         let point = LoadPoint::new(&plant, motion, reached.cell().lasts(), &measures);
         let orbit = reached.orbit.map(|orbit| orbit.state);
@@ -152,7 +156,7 @@ pub fn best_frequency(
         return Err(TheoryError::Undamped { omega }.into());
     }
     // Without any branch the device still has its linear one.
-    let branches = match branches(&plant.scenario, (Parameter::Omega, shaking), window, DOUBLINGS) {
+    let branches = match delivering_branches(&plant, window) {
         Err(error @ OrbitError::Model(ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
             return Err(error.into());
         }

@@ -4,8 +4,8 @@
 pub mod alignment;
 pub mod band;
 pub mod bounds;
+mod branches;
 pub mod change;
-mod dielectric;
 pub mod error;
 pub mod evolution;
 pub mod find;
@@ -25,6 +25,7 @@ pub mod trust;
 
 pub use band::Interval;
 pub use bounds::Bounds;
+pub(in crate::questions) use branches::delivering_branches;
 pub use error::DesignError;
 pub use harvest::{Harvest, Operating, operating};
 pub use plant::Plant;

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::linear::highest_place;
 use super::{Bounds, HarvestPoint, Plant};
+use crate::dynamics::attractors::dielectric::orbit_with_loss;
 use crate::dynamics::{Branch, BranchPoint, Measures, Orbit};
 use crate::model::Parameter;
 use crate::questions::response::Followed;
@@ -190,10 +191,12 @@ impl Arc<'_> {
         let mix = |a: f64, b: f64| a + share * (b - a);
         let omega = mix(a.value, b.value);
         let guess: Vec<f64> = a.state.iter().zip(&b.state).map(|(a, b)| mix(*a, *b)).collect();
-        let Plant { scenario, shaking, .. } = self.plant;
-        let set = shaking.at(&scenario.parameters, Parameter::Omega, omega);
+        let Plant { scenario, along, .. } = self.plant;
+        let set = along.at(&scenario.parameters, Parameter::Omega, omega);
         let system = scenario.model.system(set).ok()?;
         let orbit = Orbit::find(&system, Some(&guess), self.periods).ok()?;
+        let own = orbit_with_loss(&system, *along, (&orbit.state, self.periods)).ok()?;
+        let orbit = own.map_or(orbit, |(_, own)| own);
         let measures = orbit.measures;
         // Between its ends a step's power is not far beyond them; another motion's is.
         let (low, high) = (a.measures.v_rms.min(b.measures.v_rms), a.measures.v_rms.max(b.measures.v_rms));

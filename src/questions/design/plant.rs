@@ -1,16 +1,17 @@
 //! A scenario as a plant that delivers watts: its units, its load, and the dielectric loss beside the load.
 
-use crate::dynamics::Measures;
+use super::DesignError;
+use crate::dynamics::attractors::dielectric::{WithLoss, reach_with_loss};
+use crate::dynamics::{Effort, Measures};
 use crate::model::materials::dielectric_conductance;
-use crate::model::{ModelError, Parameter, ParameterSet, ReducedSystem, Shaking, Units};
+use crate::model::{Along, ModelError, Parameter, ParameterSet, ReducedSystem, Shaking, Units};
 use crate::scenario::Scenario;
 
 /// A scenario with its SI units and losses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plant {
     /// The scenario whose kappa is the whole conductance: the load and, where the device has a loss tangent, the
-    /// dielectric loss at the scenario's own frequency, a constant conductance beside the load. Everything dynamic is
-    /// computed from it; the motion reached under one excitation then gets the loss at its own main frequency.
+    /// dielectric loss beside it, at the scenario's own frequency until the motion's is known.
     pub scenario: Scenario,
     /// Conductance of the load alone (dimensionless).
     pub load: f64,
@@ -18,8 +19,8 @@ pub struct Plant {
     pub leakage: f64,
     /// SI units.
     pub units: Units,
-    /// What of the base's motion stays at other frequencies.
-    pub shaking: Shaking,
+    /// What of the base's motion stays at other frequencies, and what the dielectric loss does there.
+    pub along: Along,
 }
 
 impl Plant {
@@ -29,35 +30,44 @@ impl Plant {
     /// [`ModelError`], naming what is out of range.
     pub fn new(scenario: &Scenario) -> Result<Self, ModelError> {
         let ParameterSet { omega, c, kappa, .. } = scenario.parameters;
-        let leakage = dielectric_conductance(scenario.base().loss_tangent, omega, c);
-        Self::with(scenario, kappa, leakage)
+        let dielectric = dielectric_conductance(scenario.base().loss_tangent, 1.0, c);
+        let along = Along { shaking: Shaking::Amplitude, dielectric };
+        Self::with(scenario, kappa, dielectric * omega, along)
     }
 
     /// The same plant with a rule for what of the base's motion stays when the frequency changes.
     #[must_use]
     pub fn shaken(self, shaking: Shaking) -> Self {
-        Self { shaking, ..self }
+        Self { along: Along { shaking, ..self.along }, ..self }
     }
 
     /// Amplitude beta of the base at `omega` (dimensionless).
     pub fn beta_at(&self, omega: f64) -> f64 {
-        self.shaking.at(&self.scenario.parameters, Parameter::Omega, omega).beta
+        self.along.at(&self.scenario.parameters, Parameter::Omega, omega).beta
     }
 
-    fn with(scenario: &Scenario, load: f64, leakage: f64) -> Result<Self, ModelError> {
+    fn with(scenario: &Scenario, load: f64, leakage: f64, along: Along) -> Result<Self, ModelError> {
         let mut scenario = scenario.clone();
         scenario.parameters.kappa = load + leakage;
         scenario.validate()?;
         let units = scenario.units();
-        Ok(Self { scenario, load, leakage, units, shaking: Shaking::Amplitude })
+        Ok(Self { scenario, load, leakage, units, along })
     }
 
-    /// The same plant with another conductance of the dielectric loss (dimensionless).
+    /// The motion that the start `initial` of `system`, one of this plant, leads to, with the dielectric loss at its own
+    /// frequency, and the plant with that loss.
     ///
     /// # Errors
-    /// [`ModelError`] when the whole conductance is out of range.
-    pub fn with_leakage(&self, leakage: f64) -> Result<Self, ModelError> {
-        Ok(Self::with(&self.scenario, self.load, leakage)?.shaken(self.shaking))
+    /// As [`reach_with_loss`].
+    pub fn reach(
+        &self,
+        system: &ReducedSystem,
+        initial: &[f64],
+        effort: Effort,
+    ) -> Result<(Self, WithLoss), DesignError> {
+        let found = reach_with_loss(system, self.along, initial, effort)?;
+        let kappa = found.system.parameters.kappa;
+        Ok((Self::with(&self.scenario, self.load, kappa - self.load, self.along)?, found))
     }
 
     /// The same plant with a load of `resistance` (ohm).
@@ -65,8 +75,7 @@ impl Plant {
     /// # Errors
     /// [`ModelError`] when the conductance is out of range.
     pub fn with_resistance(&self, resistance: f64) -> Result<Self, ModelError> {
-        let plant = Self::with(&self.scenario, self.conductance(resistance), self.leakage)?;
-        Ok(plant.shaken(self.shaking))
+        Self::with(&self.scenario, self.conductance(resistance), self.leakage, self.along)
     }
 
     /// Dimensionless conductance of a resistance (ohm), and the other way round: (1 ohm)^-1 of the one is the other.

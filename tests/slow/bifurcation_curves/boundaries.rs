@@ -2,7 +2,7 @@
 
 use harvester_lab::dynamics::bifurcations::curves::{Curve, CurveEnd, Search, SpecialKind, find_curves};
 use harvester_lab::dynamics::{Course, Instability, Orbit, critical_excitation, follow_branch};
-use harvester_lab::model::{ForceLaw, Magnet, Parameter, ParameterSet, Parameters, ReducedSystem, Shaking};
+use harvester_lab::model::{Along, ForceLaw, Magnet, Parameter, ParameterSet, Parameters, ReducedSystem};
 
 use super::support::*;
 
@@ -75,7 +75,7 @@ fn curves_in_every_plane_are_the_boundaries_found_along_beta() -> TestResult {
 #[test]
 fn the_fold_curve_holds_the_folds_of_the_branches() -> TestResult {
     let course = Course {
-        shaking: Shaking::Amplitude,
+        along: Along::default(),
         parameter: Parameter::Beta,
         range: (0.0, 0.04),
         periods: 1,

@@ -8,7 +8,7 @@ use harvester_lab::dynamics::orbits::floquet::multipliers;
 use harvester_lab::dynamics::{
     Course, Instability, Orbit, OrbitError, PeriodMap, Plane, follow_branch, follow_doubled,
 };
-use harvester_lab::model::{ForceLaw, Parameter, ParameterSet, ReducedSystem, Shaking};
+use harvester_lab::model::{Along, ForceLaw, Parameter, ParameterSet, ReducedSystem};
 use nalgebra::Complex;
 
 use super::support::*;
@@ -50,7 +50,7 @@ fn beyond_a_cusp_there_are_two_folds_and_before_it_none() -> TestResult {
         let orbit = Orbit::find(&there, None, 1)?;
         let range = (cusp.at[0] - 0.1, cusp.at[0] + 0.1);
         let course = Course {
-            shaking: Shaking::Amplitude,
+            along: Along::default(),
             parameter: Parameter::Omega,
             range,
             periods: 1,
@@ -154,7 +154,7 @@ fn the_doubled_motions_fold_ends_where_the_doubling_turns_supercritical() -> Tes
     let set = ParameterSet { beta: 1e-5, omega: 8.0969, ..mild(1e-4) };
     let system = system(set, ForceLaw::Quadratic)?;
     let course = Course {
-        shaking: Shaking::Amplitude,
+        along: Along::default(),
         parameter: Parameter::Beta,
         range: (0.0, 0.01),
         periods: 1,

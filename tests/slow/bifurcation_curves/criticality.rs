@@ -7,14 +7,14 @@ use harvester_lab::dynamics::bifurcations::curves::{
     Criticality, Curve, CurvePoint, SpecialKind, Start, trace_curve,
 };
 use harvester_lab::dynamics::{Branch, Course, Instability, Orbit, PeriodMap, follow_branch, follow_doubled};
-use harvester_lab::model::{ForceLaw, Parameter, ReducedSystem, Shaking};
+use harvester_lab::model::{Along, ForceLaw, Parameter, ReducedSystem};
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::support::*;
 
 fn along_beta(limit: f64, most_points: usize) -> Course {
     Course {
-        shaking: Shaking::Amplitude,
+        along: Along::default(),
         parameter: Parameter::Beta,
         range: (0.0, limit),
         periods: 1,

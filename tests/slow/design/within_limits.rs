@@ -2,7 +2,9 @@
 
 use harvester_lab::dynamics::attractors::sweep::{Dwell, SweepCourse, sweep};
 use harvester_lab::dynamics::{Instability, Measures};
-use harvester_lab::model::{Device, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet, Shaking};
+use harvester_lab::model::{
+    Along, Device, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet, Shaking,
+};
 use harvester_lab::questions::checks::Span;
 use harvester_lab::questions::design::band::usable;
 use harvester_lab::questions::design::point::powers;
@@ -111,9 +113,9 @@ fn the_best_frequency_within_limits_is_where_the_limit_is_met() -> TestResult {
     let from = scenario.units().omega(1.2);
     let values: Vec<f64> = (0..=60).map(|i| from + (there - from) * f64::from(i) / 60.0).collect();
     let dwell = Dwell { discarded: 300, kept: 32 };
-    let (parameter, shaking) = (Parameter::Omega, Shaking::Amplitude);
+    let (parameter, along) = (Parameter::Omega, Along::default());
     let (set, model) = (&scenario.parameters, scenario.model);
-    let course = SweepCourse { set, model, parameter, shaking, start: &[0.0; 5], dwell };
+    let course = SweepCourse { set, model, parameter, along, start: &[0.0; 5], dwell };
     let (points, _) = sweep(course, &values, None)?;
     let last = points.last().ok_or("a sweep")?;
     let power = scenario.units().watts(last.measures.power);

@@ -7,7 +7,7 @@ use self::truth::{Length, Run, Standing, Truth, standing};
 use harvester_lab::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
 use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{Collocation, Inquiry, Settings, trace_tongue};
-use harvester_lab::model::{ForceLaw, ModelChoice, Parameter, ParameterSet, ReducedSystem, Shaking};
+use harvester_lab::model::{Along, ForceLaw, ModelChoice, Parameter, ParameterSet, ReducedSystem};
 use harvester_lab::theory::Resonance;
 
 /// How far around a tip, relative.
@@ -106,7 +106,7 @@ fn swept(set: &ParameterSet, model: ModelChoice, system: &ReducedSystem) -> Swee
         set,
         model,
         parameter: Parameter::Beta,
-        shaking: Shaking::Amplitude,
+        along: Along::default(),
         start: &vec![0.0; system.dimension()],
         dwell: Dwell::default(),
     };

@@ -12,6 +12,8 @@ const STEADY: f64 = 0.02;
 /// Distance from the orbit, relative to its size, at which the run has arrived, and at which it may stop before its time.
 const ARRIVED: f64 = 1e-3;
 const EARLY: f64 = 1e-6;
+/// Part of the distance that is left when the decay by the multipliers is looked at.
+const DECAY: f64 = 0.1;
 
 /// Batches of the last stretch, whose scatter tells how far its mean is off by chance, and how many standard errors that is.
 const BATCHES: usize = 10;
@@ -98,10 +100,7 @@ pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length)
                 .zip(scales(system))
                 .map(|(y, scale)| (y / scale).abs())
                 .fold(0.0, f64::max);
-            let off = |state: &[f64]| {
-                let parts = state.iter().zip(&orbit.state).zip(scales(system));
-                parts.map(|((a, b), scale)| ((a - b) / scale).abs()).fold(0.0, f64::max)
-            };
+            let off = |state: &[f64]| off(system, &orbit, state);
             let unit = size.max(1e-4 * system.equilibrium.gap);
             let near = if done < length.least { EARLY } else { ARRIVED };
             if orbit.stable() && off(&state) <= near * unit {
@@ -115,7 +114,11 @@ pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length)
             let shrinks = earlier.as_ref().is_some_and(|earlier: &Vec<f64>| off(&state) < 0.5 * off(earlier));
             let arrives = off(&state) <= 0.1 * unit && shrinks && off(&state) < off(before);
             if orbit.stable() && arrives && done >= length.least {
-                return Truth::Periodic(Box::new(orbit));
+                match decays(system, run, &orbit, length.most) {
+                    Some(true) => return Truth::Periodic(Box::new(orbit)),
+                    Some(false) => {}
+                    None => return Truth::Ended,
+                }
             }
             // Whatever is near may still be approached, or left.
             leaving |= off(&state) <= 0.3 * unit;
@@ -135,6 +138,29 @@ pub(crate) fn follow(system: &ReducedSystem, run: &mut impl Run, length: Length)
         }
     }
     chaotic(system, run).map_or(Truth::Ended, |chaotic| Truth::Open { v_rms: open, chance, chaotic })
+}
+
+/// Whether `run`, near the stable `orbit`, comes closer as its multipliers say, twice by [`DECAY`] of the distance: a torus
+/// about it passes closer and farther. `None` when the run ends.
+fn decays(system: &ReducedSystem, run: &mut impl Run, orbit: &Orbit, most: usize) -> Option<bool> {
+    let turns = DECAY.ln() / orbit.largest_multiplier().norm().ln();
+    let turns = (turns.ceil() as usize).clamp(1, most / orbit.periods);
+    let mut before = off(system, orbit, &run.state());
+    for _ in 0..2 {
+        run.advance(turns * orbit.periods)?;
+        let now = off(system, orbit, &run.state());
+        if now > DECAY.sqrt() * before && now > EARLY {
+            return Some(false);
+        }
+        before = now;
+    }
+    Some(true)
+}
+
+/// Largest component of the difference of `state` from the orbit's.
+fn off(system: &ReducedSystem, orbit: &Orbit, state: &[f64]) -> f64 {
+    let parts = state.iter().zip(&orbit.state).zip(scales(system));
+    parts.map(|((a, b), scale)| ((a - b) / scale).abs()).fold(0.0, f64::max)
 }
 
 /// Whether `run` and one beside it part as on a chaotic motion; `None` when one of them ends.

@@ -115,9 +115,8 @@ fn beside(
     let recogniser = Recogniser::new(system);
     let own = Signature::of(reached.clone());
     let same = recogniser.same_end(&own, &Signature::of(coarser.clone()));
-    let lasting =
-        matches!(reached.motion, Motion::Chaotic | Motion::Quasiperiodic | Motion::Undecided { .. });
-    let separated = !lasting && separated(reached, &coarser);
+    let diverging = matches!(reached.motion, Motion::Chaotic | Motion::Undecided { .. });
+    let separated = !diverging && separated(reached, &coarser);
     let mut ends = vec![(own, 1)];
     let undecided = |reached: &Reached| matches!(reached.motion, Motion::Undecided { .. });
     // One that is not decided is no other motion.

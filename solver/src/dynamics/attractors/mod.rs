@@ -7,6 +7,7 @@
 //!   `neighbourhood` tells whether they lie in the linear neighbourhood of a periodic motion, and what they do there;
 //!   [`rotation`] has means and frequencies by weighted Birkhoff averages, `zero_one` the 0-1 test for chaos, [`lyapunov`]
 //!   the exponents, from the growth of `tangent` vectors. `meter` measures what does not repeat.
+//! * [`dielectric`] takes a dielectric's loss at the frequency of the motion that it has a part in.
 //! * [`signature`] tells whether two starts lead to the same motion; [`sweep`] carries a motion from one value of a
 //!   parameter to the next.
 //! * [`spectrum`] has lines, [`spectral_label`] their names, [`voltage_spectrum`] those of a motion's voltage.
@@ -14,6 +15,7 @@
 //!
 //! The uppermost room: it may use all others, and none of them uses it.
 
+pub mod dielectric;
 pub mod evidence;
 mod inquiry;
 pub mod lyapunov;

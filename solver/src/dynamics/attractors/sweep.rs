@@ -8,10 +8,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::dielectric::{WithLoss, reach_with_loss};
 use super::motion::{Cell, Motion};
-use super::settle::{Effort, reach};
-use crate::dynamics::integration::{Collocation, IntegrationError, Measures, RunError, Settings};
-use crate::model::{ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem, Shaking};
+use super::settle::Effort;
+use crate::dynamics::integration::{Collocation, Measures, RunError, Settings};
+use crate::model::{Along, ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem};
 
 /// How long each value is held, in excitation periods.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
@@ -79,8 +80,8 @@ pub struct SweepCourse<'a> {
     pub model: ModelChoice,
     /// What changes.
     pub parameter: Parameter,
-    /// What of the base's motion is held meanwhile.
-    pub shaking: Shaking,
+    /// What follows the frequency meanwhile.
+    pub along: Along,
     /// Where a value starts that no motion is carried over to (length 2N + 1).
     pub start: &'a [f64],
     /// How long each value is held.
@@ -97,15 +98,15 @@ pub fn sweep(
     values: &[f64],
     state: Option<&[f64]>,
 ) -> Result<(Vec<SweepPoint>, Option<Vec<f64>>), RunError> {
-    let SweepCourse { set, model, parameter, shaking, start, dwell } = course;
+    let SweepCourse { set, model, parameter, along, start, dwell } = course;
     let mut carried = state.map(<[f64]>::to_vec);
     let mut points = Vec::with_capacity(values.len());
     for value in values {
-        let set = shaking.at(set, parameter, *value);
+        let set = along.at(set, parameter, *value);
         let restarted = carried.is_none();
         let from = carried.as_ref().map_or(start, Vec::as_slice);
         let held = match model.system(set) {
-            Ok(system) => hold(&system, from, dwell)?,
+            Ok(system) => hold(&system, along, from, dwell)?,
             // A value out of its own range is a wrong question; a device that cannot be is a gap.
             Err(reason @ (ModelError::OutOfRange { .. } | ModelError::NotFinite { .. })) => {
                 return Err(reason.into());
@@ -145,8 +146,9 @@ impl Held {
 }
 
 /// Holds `system` from the state `from` until its motion has settled, and for as long as `dwell` says.
-fn hold(system: &ReducedSystem, from: &[f64], dwell: Dwell) -> Result<Held, IntegrationError> {
-    let reached = reach(system, from, Effort { least: dwell.discarded, ..Effort::cell() })?;
+fn hold(system: &ReducedSystem, along: Along, from: &[f64], dwell: Dwell) -> Result<Held, RunError> {
+    let effort = Effort { least: dwell.discarded, ..Effort::cell() };
+    let WithLoss { system, reached, .. } = reach_with_loss(system, along, from, effort)?;
     let mut held = Held::of(reached.cell());
     if held.point.ended {
         return Ok(held);
@@ -158,7 +160,7 @@ fn hold(system: &ReducedSystem, from: &[f64], dwell: Dwell) -> Result<Held, Inte
         held.end = reached.states.into_iter().next();
         return Ok(held);
     }
-    let mut integrator = Collocation::new(system, &reached.state, Settings::default())?;
+    let mut integrator = Collocation::new(&system, &reached.state, Settings::default())?;
     let end = dwell.kept as f64 * system.parameters.period();
     let strobe = &mut held.point.strobe;
     while integrator

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::plane::Axis;
 use crate::dynamics::orbits::{OrbitError, OrbitSolver, PeriodMap};
-use crate::model::{Parameter, ParameterSet, ReducedSystem, Shaking};
+use crate::model::{Along, Parameter, ParameterSet, ReducedSystem};
 
 /// Iterations of a correction.
 const MAX_ITERATIONS: usize = 12;
@@ -34,9 +34,9 @@ pub(super) struct Family<const K: usize> {
     /// Step of difference quotients in a parameter, relative to the width of its range.
     pub(super) difference: f64,
     axes: [Axis; K],
-    /// The numbers that do not change, and how the base is shaken while those on the axes do.
+    /// The numbers that do not change, and what follows those on the axes.
     origin: ParameterSet,
-    shaking: Shaking,
+    along: Along,
     /// Units of the places' components.
     units: Vec<f64>,
     /// Systems that differ in more than beta, with their maps, the one used last at the end.
@@ -50,19 +50,19 @@ pub(super) struct Family<const K: usize> {
 impl<const K: usize> Family<K> {
     /// The orbits of `periods` excitation periods of the device `system` with its parameters on `axes`.
     pub(super) fn new(system: &ReducedSystem, axes: [Axis; K], periods: usize) -> Result<Self, OrbitError> {
-        let (origin, shaking) = (*system.parameters, Shaking::Amplitude);
+        let (origin, along) = (*system.parameters, Along::default());
         let mut solver = OrbitSolver::new(system);
         let gap = solver.map().gap();
         let state = solver.map().scales().iter().map(|scale| scale * gap);
         let units = state.chain(axes.iter().map(Axis::width)).collect();
         let (difference, spare, columns, spent) = (DIFFERENCE, Vec::new(), None, 0);
         let system = system.clone();
-        Ok(Self { system, periods, solver, difference, axes, origin, shaking, units, spare, columns, spent })
+        Ok(Self { system, periods, solver, difference, axes, origin, along, units, spare, columns, spent })
     }
 
-    /// The same problem with another rule for the base's motion while the frequency changes.
-    pub(super) fn shaken(self, shaking: Shaking) -> Self {
-        Self { shaking, ..self }
+    /// The same problem with what follows the frequency when that changes.
+    pub(super) fn following(self, along: Along) -> Self {
+        Self { along, ..self }
     }
 
     /// What was computed so far, as [`OrbitSolver::effort`].
@@ -116,7 +116,7 @@ impl<const K: usize> Family<K> {
     pub(super) fn set(&mut self, values: [f64; K]) -> Result<(), OrbitError> {
         let mut set = self.origin;
         for (axis, value) in self.axes.iter().zip(values) {
-            set = self.shaking.at(&set, axis.parameter, axis.accepted(value));
+            set = self.along.at(&set, axis.parameter, axis.accepted(value));
         }
         let differs = |other: &ParameterSet| ParameterSet { beta: set.beta, ..*other } != set;
         if differs(&self.system.parameters) {

@@ -4,15 +4,15 @@ use nalgebra::Complex;
 
 use crate::dynamics::integration::Measures;
 use crate::dynamics::orbits::{Instability, OrbitError};
-use crate::model::{Parameter, Shaking};
+use crate::model::{Along, Parameter};
 
 /// What to follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
     /// The number that changes.
     pub parameter: Parameter,
-    /// How the base is shaken meanwhile.
-    pub shaking: Shaking,
+    /// What follows the frequency meanwhile.
+    pub along: Along,
     /// Where it may go; the ends belong to the branch.
     pub range: (f64, f64),
     /// Period of the orbits in excitation periods.

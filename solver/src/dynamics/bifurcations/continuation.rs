@@ -38,7 +38,7 @@ const OFFSETS: [f64; 3] = [3e-3, 1e-2, 3e-2];
 /// As [`crate::dynamics::OrbitSolver::find`] when there is no orbit near `state`, [`OrbitError::Singular`] when it is
 /// exactly a bifurcation. Once begun, a branch that is lost is an answer, [`BranchEnd::Lost`].
 pub fn follow_branch(system: &ReducedSystem, state: &[f64], course: &Course) -> Result<Branch, OrbitError> {
-    let mut family = Family::new(system, [axis(course)], course.periods)?.shaken(course.shaking);
+    let mut family = Family::new(system, [axis(course)], course.periods)?.following(course.along);
     let beta = family.beta();
     family.solver.find(state, beta, course.periods)?;
     let value = system.parameters.get(course.parameter);
@@ -62,9 +62,9 @@ pub fn follow_doubled(
     origin: &Bifurcation,
     course: &Course,
 ) -> Result<Branch, OrbitError> {
-    let set = course.shaking.at(&system.parameters, course.parameter, origin.point.value);
+    let set = course.along.at(&system.parameters, course.parameter, origin.point.value);
     let system = system.with_numbers(set)?;
-    let mut family = Family::new(&system, [axis(course)], course.periods)?.shaken(course.shaking);
+    let mut family = Family::new(&system, [axis(course)], course.periods)?.following(course.along);
     let beta = family.beta();
     family.solver.evaluate_at(&origin.point.state, beta, course.periods)?;
     let mode = eigenvector(&family.solver.map().scaled_derivative(), -1.0)?;

@@ -17,7 +17,7 @@ use crate::dynamics::bifurcations::continuation::{follow_branch, follow_doubled}
 use crate::dynamics::bifurcations::plane::{Axis, Plane};
 use crate::dynamics::orbits::march::Forced;
 use crate::dynamics::orbits::{Instability, OrbitError, OrbitSolver};
-use crate::model::{Parameter, ReducedSystem, Shaking};
+use crate::model::{Along, Parameter, ReducedSystem};
 use crate::theory::spectrum::eigenvalues;
 
 /// Most points of a branch along a line: a resonance can be followed up without end, and beyond about this many the tip
@@ -181,8 +181,8 @@ fn trace_all(
 
 fn course(axis: Axis, upwards: bool) -> Course {
     let Axis { parameter, range } = axis;
-    let shaking = Shaking::Amplitude;
-    Course { parameter, shaking, range, periods: 1, upwards, most_points: MOST_POINTS }
+    let along = Along::default();
+    Course { parameter, along, range, periods: 1, upwards, most_points: MOST_POINTS }
 }
 
 /// The system at the parameters `at`, and the branch of forced motions from there along `axis`.
