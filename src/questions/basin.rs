@@ -332,6 +332,14 @@ impl Study for BasinStudy {
     fn finished(&self) -> bool {
         self.chart.finished()
     }
+
+    fn sketches(&self) -> bool {
+        self.chart.sketches()
+    }
+
+    fn is_replaceable(&self) -> bool {
+        self.chart.is_replaceable()
+    }
 }
 
 #[cfg(test)]

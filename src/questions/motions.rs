@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::response::check_range;
 use crate::dynamics::attractors::signature::Signature;
-use crate::dynamics::{ESCAPE_DISPLACEMENT, Effort, IntegrationError, Settler, reach};
+use crate::dynamics::{ESCAPE_DISPLACEMENT, Effort, IntegrationError, Settler};
 use crate::model::{Dimension, ModelError, Parameter, ReducedSystem, Units, state_dimension};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::Place;
@@ -197,8 +197,9 @@ impl MotionPlane {
         let (system, start) = self.scenario.validate()?;
         // Where only the start changes, all share the periodic motions that are found.
         let one_system = matches!((self.x.0, self.y.0), (Coordinate::Start(_), Coordinate::Start(_)));
-        let mut settler = one_system.then(|| Settler::new(&system));
-        places.iter().map(|place| self.motion(&system, &start, *place, settler.as_mut())).collect()
+        let mut settler = Settler::new(&system);
+        let motion = |place: &[f64; 2]| self.motion(&system, &start, *place, (&mut settler, one_system));
+        places.iter().map(motion).collect()
     }
 
     fn motion(
@@ -206,7 +207,7 @@ impl MotionPlane {
         system: &ReducedSystem,
         start: &[f64],
         place: [f64; 2],
-        settler: Option<&mut Settler>,
+        (settler, one_system): (&mut Settler, bool),
     ) -> Result<Option<Signature>, Failure> {
         let mut set = self.scenario.parameters;
         let mut initial = start.to_vec();
@@ -234,11 +235,10 @@ impl MotionPlane {
             Err(_) if in_si => return Ok(None),
             system => system?,
         };
-        let found = match settler {
-            Some(settler) => settler.reach(&initial, Effort::cell()),
-            None => reach(&system, &initial, Effort::cell()),
-        };
-        match found.map(Signature::of) {
+        if !one_system {
+            settler.turn_to(&system);
+        }
+        match settler.reach(&initial, Effort::cell()).map(Signature::of) {
             Err(IntegrationError::StepTooSmall { .. } | IntegrationError::TooManySteps { .. }) => Ok(None),
             found => Ok(Some(found?)),
         }

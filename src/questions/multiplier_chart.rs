@@ -224,6 +224,10 @@ impl Study for MultiplierChart {
     fn sketches(&self) -> bool {
         self.coarse_left().next().is_some()
     }
+
+    fn is_replaceable(&self) -> bool {
+        self.finished() || (0..self.coarse.len()).step_by(self.stride()).all(|i| self.coarse[i].is_some())
+    }
 }
 
 #[cfg(test)]

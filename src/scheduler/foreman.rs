@@ -22,32 +22,42 @@ struct Assignment {
 pub struct Foreman {
     busy: Vec<Option<Assignment>>,
     handed: u64,
+    /// The lane and the question whose sketch has last let an urgent piece go first.
+    gave_way: Option<(usize, u64)>,
 }
 
 impl Foreman {
     /// A foreman of this many workers, numbered from 0.
     pub fn new(workers: usize) -> Self {
-        Self { busy: vec![None; workers], handed: 0 }
+        Self { busy: vec![None; workers], ..Self::default() }
     }
 
     /// The next piece for an idle worker and the number under which it is to be returned: from a lane that is being
-    /// sketched, else from the first of the `urgent` lanes that has one, else from the first of the others that has no
-    /// first picture yet, else from the first of the others.
+    /// sketched, else from the first of the `urgent` lanes that has one, else, `in_background`, from the first of the others
+    /// that has no first picture yet, else from the first of the others. Each new sketch lets one urgent piece go first, so
+    /// that a question which changes as often as the hand moves does not keep these waiting.
     pub fn assign(
         &mut self,
         worker: usize,
         lanes: &mut [&mut dyn Traffic],
-        urgent: usize,
+        (urgent, in_background): (usize, bool),
     ) -> Option<(u64, Arc<dyn Work>)> {
         let slot = self.busy.get_mut(worker).filter(|slot| slot.is_none())?;
+        let urgent = urgent.min(lanes.len());
         let mut order: Vec<usize> = (0..lanes.len()).collect();
         let pictured = |lane: &usize| lanes[*lane].progress().is_none_or(|done| done >= FIRST_PICTURE);
-        order[urgent.min(lanes.len())..].sort_by_key(pictured);
-        order.sort_by_key(|lane| !lanes[*lane].is_sketched());
+        order[urgent..].sort_by_key(pictured);
+        order.retain(|lane| *lane < urgent || in_background || lanes[*lane].is_sketched());
+        let sketch = order.iter().copied().find(|lane| lanes[*lane].is_sketched());
+        let sketch = sketch.map(|lane| (lane, lanes[lane].generation()));
+        if sketch.is_none() || self.gave_way == sketch {
+            order.sort_by_key(|lane| !lanes[*lane].is_sketched());
+        }
         for lane in order {
             let traffic = &mut lanes[lane];
             if let Some(ticket) = traffic.next() {
                 self.handed += 1;
+                self.gave_way = sketch.or(self.gave_way);
                 let work = Arc::clone(&ticket.work);
                 *slot =
                     Some(Assignment { number: self.handed, lane, generation: traffic.generation(), ticket });

@@ -15,7 +15,7 @@ const MOST_DEATHS: u32 = 2;
 pub struct Lane<S> {
     generation: u64,
     study: Option<S>,
-    /// Asked next, when the present study is finished.
+    /// Asked next, when the present study is finished or has a first picture.
     waiting: Option<S>,
     /// The last finished study before the present one.
     before: Option<S>,
@@ -51,10 +51,10 @@ impl<S: Study> Lane<S> {
         }
     }
 
-    /// Asks as soon as the present question is answered, instead of any question that waits: for questions that change
-    /// faster than they are answered.
+    /// Asks as soon as the present question is answered, or has a first picture, instead of any question that waits: for
+    /// questions that change faster than they are answered.
     pub fn offer(&mut self, study: S) {
-        if self.study.as_ref().is_none_or(Study::finished) {
+        if self.study.as_ref().is_none_or(Study::is_replaceable) {
             self.ask(study);
         } else {
             self.waiting = Some(study);
@@ -134,7 +134,7 @@ impl<S: Study> Traffic for Lane<S> {
         if let (Some(study), Some(take)) = (&mut self.study, self.under_way.remove(&ticket)) {
             take(study, finding);
         }
-        if self.study.as_ref().is_none_or(Study::finished)
+        if self.study.as_ref().is_none_or(Study::is_replaceable)
             && let Some(next) = self.waiting.take()
         {
             self.ask(next);
@@ -221,7 +221,8 @@ impl Lanes {
         self.put(question, begin, Lane::ask);
     }
 
-    /// The same when the present one of its kind is answered: for questions that change faster than they are answered.
+    /// The same when the present one of its kind is answered or has a first picture: for questions that change faster than
+    /// they are answered.
     pub fn offer<S: Asked>(&mut self, question: S::Question, begin: impl FnOnce(S::Question) -> Option<S>) {
         self.put(question, begin, Lane::offer);
     }

@@ -21,9 +21,9 @@
 //! cannot be of different versions. Messages are bytes (`nanoserde`): no shared memory, so no special headers are
 //! needed.
 //!
-//! While a pointer is down, all but one worker leave background studies alone, and the frame keeps its core. Questions
-//! that change as fast as a slider moves are `offer`ed rather than asked: the present one is finished first, then the
-//! newest is taken up.
+//! While a pointer is down, all but one worker leave background studies alone, and the frame keeps its core; first, coarse
+//! pictures are drawn all the same. Questions that change as fast as a slider moves are `offer`ed rather than asked: the
+//! present one is finished first, or has its first picture, then the newest is taken up.
 
 pub mod budget;
 pub mod foreman;

@@ -75,6 +75,11 @@ pub trait Study: Sized + 'static {
     fn sketches(&self) -> bool {
         false
     }
+
+    /// Whether a newer question may take its place: when it is finished, or has drawn its first picture.
+    fn is_replaceable(&self) -> bool {
+        self.finished()
+    }
 }
 
 /// A study that knows what it was asked, so that the same is not asked again.

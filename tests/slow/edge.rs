@@ -135,6 +135,12 @@ fn what_rounding_decides_is_said_with_all_its_ends() {
     for expected in [22.27, 31.97] {
         assert!(ends.iter().any(|volts| (volts / expected - 1.0).abs() < 1e-3), "{ends:?}");
     }
+    // By way of chaos onto a torus, where another integrator ends at period 9: 33.3756 V.
+    let parameters =
+        json!({"alpha": 8.930061783998469e-5, "beta": 0.04694471748786639, "omega": 6.561403904158967});
+    let found = verdict(parameters, json!({"force": "exact"}), json!({}));
+    assert_eq!(found["motion"]["why"], "depends_on_rounding", "{}", found["sentence"]);
+    assert_eq!(found["suspected"]["kind"], "quasiperiodic");
     // Hardly any load: the transient takes a million of time units, and nothing is claimed before.
     let found = verdict(
         json!({"alpha": 1e-4, "beta": 0.02458893585682749, "omega": 7.530165700084426, "kappa": 1e-12}),

@@ -53,7 +53,8 @@ pub struct Crew {
     begun: Vec<(f64, f64)>,
     /// What is being studied.
     pub(super) studies: Studies,
-    /// While the user's hand moves, studies in the background leave all but one worker idle, and the frame its core.
+    /// While the user's hand moves, studies in the background that have a first picture leave all but one worker idle, and
+    /// the frame its core.
     restrained: bool,
 }
 
@@ -72,8 +73,8 @@ impl Crew {
             let in_background = !self.restrained || self.foreman.busy_count() == 0;
             let urgent = self.studies.lanes.urgent();
             let mut lanes = self.studies.lanes.traffic();
-            let lanes = if in_background { &mut lanes[..] } else { &mut lanes[..urgent] };
-            let Some((number, work)) = self.foreman.assign(worker, lanes, urgent) else { continue };
+            let given = self.foreman.assign(worker, &mut lanes, (urgent, in_background));
+            let Some((number, work)) = given else { continue };
             let longest = if work.is_long() { LONGEST_ANSWER_MS } else { LONGEST_MS };
             self.begun[worker] = (milliseconds(), longest);
             self.workers.give(worker, number, work);

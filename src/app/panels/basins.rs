@@ -10,12 +10,12 @@ use crate::app::theme::{self, Tokens};
 use crate::app::view::Tab;
 use crate::app::widgets::number::{round_significant, significant};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{attractor_row, draw_raster, raster, recorder};
+use crate::app::widgets::{attractor_row, draw_raster, fading, raster, recorder};
 use crate::app::{colours, questions};
 use crate::dynamics::attractors::motion::Motion;
 use crate::questions::basin::{Attractor, BasinStudy};
 use crate::scenario::Scenario;
-use crate::scheduler::Asked as _;
+use crate::scheduler::{Asked as _, Study as _};
 
 /// Attractors that are listed.
 const LISTED: usize = 6;
@@ -31,7 +31,7 @@ pub(super) const PANEL: Spec =
         .embedded("basins", marked("Basins of attraction"));
 
 fn ask(Asking { view, studies, .. }: &mut Asking<'_>) {
-    studies.lanes.ask(questions::basin(view), |(scenario, basin)| BasinStudy::new(scenario, basin).ok());
+    studies.lanes.offer(questions::basin(view), |(scenario, basin)| BasinStudy::new(scenario, basin).ok());
 }
 
 fn contents(context: &mut Context<'_>, ui: &mut Ui) {
@@ -106,12 +106,15 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &BasinStudy, attractors: 
     let [(i, x_range), (j, y_range)] = basin.sides();
     let size = basin.chart().asked().size;
     let lane = context.studies.lanes.generation::<BasinStudy>();
+    let known = basin.is_replaceable();
     let revision = basin.chart().version() ^ (lane << 32) ^ tokens.number() << 62;
     let colours = colours_of(attractors, tokens);
     let picture = raster(ui, Id::unique("basins"), revision, size, &|column, row| {
-        let cell = basin.shown(column, row)?;
+        // The last picture stays until there is another one, coarse as it may be.
+        let cell = basin.shown(column, row).filter(|_| known)?;
         Some(cell.and_then(|index| colours.get(index)).copied().unwrap_or(tokens.inset))
     });
+    let opacity = fading(ui, Id::unique("basins"), known);
     let (x, y) = (Axis::new(tr("start"), "q₁"), Axis::new("", "dq₁/dt"));
     let start = start(&context.view.scenario);
     let here = [start[i], start[j]];
@@ -124,7 +127,6 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &BasinStudy, attractors: 
             let (x, y) = (x_range, y_range);
             plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
             if let Some(picture) = &picture {
-                let opacity = if basin.chart().version() == 0 { 0.4 } else { 1.0 };
                 draw_raster(plot, picture, x, y, opacity);
                 let value = |column, row| {
                     basin.chart().cell(column, row)?;

@@ -16,7 +16,7 @@ use crate::app::view::Tab;
 use crate::app::widgets::number::{self, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{
-    Filling, Hatched, Series, chips, colour_bar, draw_raster, hatched, raster, recorder, swatches,
+    Filling, Hatched, Series, chips, colour_bar, draw_raster, fading, hatched, raster, recorder, swatches,
 };
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
@@ -45,9 +45,11 @@ fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
     let (scenario, chart) = questions::chart(view, boundaries);
     if chart.quantity == Quantity::Multiplier {
         let asked = (scenario, chart.omega, chart.beta);
-        studies.lanes.ask(asked, |(scenario, omega, beta)| Some(MultiplierChart::new(scenario, omega, beta)));
+        studies
+            .lanes
+            .offer(asked, |(scenario, omega, beta)| Some(MultiplierChart::new(scenario, omega, beta)));
     } else {
-        studies.lanes.ask(chart.plane(scenario), |plane| Some(MotionChart::new(plane)));
+        studies.lanes.offer(chart.plane(scenario), |plane| Some(MotionChart::new(plane)));
     }
 }
 
@@ -142,8 +144,8 @@ struct Picture {
     cells: Cells,
     omega: (f64, f64),
     beta: (f64, f64),
-    /// Whether any of it answers the newest question.
-    known: bool,
+    /// Less where it is that of the last question, still.
+    opacity: f32,
 }
 
 /// The picture of the layer in view.
@@ -156,11 +158,18 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Quantity) -> Option<Picture> {
         let chart = context.studies.lanes.study::<MultiplierChart>()?;
         let (_, omega, beta) = chart.asked();
         let revision = revision(chart.version(), context.studies.lanes.generation::<MultiplierChart>());
-        let paint = |column, row| chart.shown(column, row).map(|value| colours::multiplier(value, tokens));
+        let known = chart.is_replaceable();
+        let shown = |column, row| chart.shown(column, row).filter(|_| known);
+        let paint = |column, row| shown(column, row).map(|value| colours::multiplier(value, tokens));
         let texture =
             raster(ui, Id::unique("multiplier chart"), revision, (omega.count, beta.count), &paint)?;
         let (omega, beta) = (omega.range(), beta.range());
-        return Some(Picture { cells: Cells::Plain(texture), omega, beta, known: chart.version() > 0 });
+        return Some(Picture {
+            cells: Cells::Plain(texture),
+            omega,
+            beta,
+            opacity: fading(ui, Id::unique("multiplier chart"), known),
+        });
     }
     let chart = context.studies.lanes.study::<MotionChart>()?;
     let question = chart.asked();
@@ -178,14 +187,20 @@ fn picture(context: &Context<'_>, ui: &Ui, layer: Quantity) -> Option<Picture> {
         (Some(Safety(bounds)), Some(demand)) => !bounds.limits.allow(&demand, bounds.gap),
         _ => false,
     };
+    let known = chart.is_replaceable();
     let paint = |column: usize, row: usize| {
-        let cell = chart.shown(column, row)?;
+        let cell = chart.shown(column, row).filter(|_| known)?;
         Some((cell.map_or(tokens.inset, colour), cell.as_ref().is_some_and(unsafe_in)))
     };
     let limits = safety.as_ref().map_or(0, Safety::fingerprint);
     let revision = revision(chart.version(), context.studies.lanes.generation::<MotionChart>()) ^ limits;
     let cells = Cells::Hatched(hatched(ui, Id::unique("motion chart"), revision, question.size, &paint)?);
-    Some(Picture { cells, omega: question.x.1, beta: question.y.1, known: chart.version() > 0 })
+    Some(Picture {
+        cells,
+        omega: question.x.1,
+        beta: question.y.1,
+        opacity: fading(ui, Id::unique("motion chart"), known),
+    })
 }
 
 /// Notes the values behind the picture for files.
@@ -238,11 +253,10 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         .allow_double_click_reset(false)
         .show(ui, |plot| {
             plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
-            if let Some(Picture { cells, omega, beta, known }) = &picture {
-                let opacity = if *known { 1.0 } else { 0.5 };
+            if let Some(Picture { cells, omega, beta, opacity }) = &picture {
                 match cells {
-                    Cells::Plain(texture) => draw_raster(plot, texture, *omega, *beta, opacity),
-                    Cells::Hatched(picture) => picture.draw(plot, *omega, *beta, opacity),
+                    Cells::Plain(texture) => draw_raster(plot, texture, *omega, *beta, *opacity),
+                    Cells::Hatched(picture) => picture.draw(plot, *omega, *beta, *opacity),
                 }
                 record(context, plot, [*omega, *beta]);
             }

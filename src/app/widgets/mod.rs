@@ -31,7 +31,7 @@ pub use icon::{Icon, icon_button};
 pub use legend::legend_entry;
 pub use parameter_slider::{Mark, ParameterSlider, SliderResponse};
 pub use qr::{qr_code, qr_modules};
-pub use raster::{draw_raster, raster};
+pub use raster::{draw_raster, fading, raster};
 pub use series::Series;
 pub use swatch::{Filling, attractor_row, colour_bar, swatches};
 pub use tabs::{chips, chips_after, tabs};

@@ -56,6 +56,14 @@ pub fn raster(
     Some(texture)
 }
 
+/// How opaque a picture is that is the last one until the newest is `known`: it fades slowly, so that one which follows the
+/// hand does not flicker.
+pub fn fading(ui: &Ui, id: Id, known: bool) -> f32 {
+    const FADED: f32 = 0.4;
+    const SECONDS: f32 = 1.0;
+    FADED + (1.0 - FADED) * ui.ctx().animate_bool_with_time(id.with("fading"), known, SECONDS)
+}
+
 /// Draws a picture whose outer cells have their middles at the ends of the ranges `x` and `y`; a cell is a pixel.
 pub fn draw_raster(
     plot: &mut PlotUi<'_>,

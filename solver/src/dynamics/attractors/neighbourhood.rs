@@ -122,6 +122,14 @@ impl Neighbourhood {
         self.states.iter().any(|own| self.between(own, state) <= within)
     }
 
+    /// Largest distance of the last states from the orbit's stroboscopic ones, as a displacement in beam lengths.
+    pub(super) fn distance_lately(&self, strobe: &Strobe) -> f64 {
+        let nearest = |state: &[f64]| {
+            self.states.iter().map(|own| self.between(own, state)).fold(f64::INFINITY, f64::min)
+        };
+        (0..WINDOW.0.min(strobe.len())).map(|back| nearest(strobe.before_last(back))).fold(0.0, f64::max)
+    }
+
     /// The stroboscopic states of the orbit in their order, from the one nearest to `state`.
     pub(super) fn states_from(&self, state: &[f64]) -> Vec<Vec<f64>> {
         let distance = |k: &usize| self.between(&self.states[*k], state);

@@ -26,6 +26,7 @@ use super::strobe::Strobe;
 use super::tangent::Tangents;
 use super::zero_one::zero_one;
 use crate::dynamics::integration::{Collocation, IntegrationError, Measures, Outcome, Settings};
+use crate::dynamics::orbits::newton::Convergence;
 use crate::dynamics::orbits::period_map::MOST_PERIODS;
 use crate::dynamics::orbits::{Instability, Orbit, OrbitSolver, PeriodMap};
 use crate::model::ReducedSystem;
@@ -48,6 +49,8 @@ const DEEPEST_LEVEL: u32 = 7;
 const AGAIN: usize = 4;
 /// Longest period that is looked for from afar.
 const SHORT: usize = 8;
+/// Most motions of one system that serve as guesses for the next.
+const MOST_GUESSES: usize = 4;
 /// Distance, relative to the gap, below which two orbits are the same.
 const SAME: f64 = 1e-6;
 /// The tip's displacement is noted once in so many periods, to be compared with other runs from the same start.
@@ -109,9 +112,11 @@ pub fn reach(system: &ReducedSystem, initial: &[f64], effort: Effort) -> Result<
 /// Answers for many starts of one system, whose periodic motions it keeps.
 pub struct Settler {
     system: ReducedSystem,
-    /// Of the map on its coarsest grid.
+    /// Of the map on its coarsest grid, whose steps are the integrator's longest.
     solver: OrbitSolver,
     known: Vec<Neighbourhood>,
+    /// Periodic motions of a system like this one, with their periods: where its own are looked for first.
+    guesses: Vec<(Vec<f64>, usize)>,
     /// That of the last start, for its tables.
     integrator: Option<Collocation>,
 }
@@ -127,7 +132,26 @@ impl Settler {
     pub fn new(system: &ReducedSystem) -> Self {
         let map = PeriodMap::new(system).limited(DEEPEST_LEVEL);
         let solver = OrbitSolver::with_map(system, map);
-        Self { system: system.clone(), solver, known: Vec::new(), integrator: None }
+        let system = system.clone();
+        Self { system, solver, known: Vec::new(), guesses: Vec::new(), integrator: None }
+    }
+
+    /// For starts of `system`, one like the last: its periodic motions are looked for near those of the last.
+    pub fn turn_to(&mut self, system: &ReducedSystem) {
+        let stable = self.known.iter().map(|known| &known.orbit).filter(|orbit| orbit.stable());
+        let guesses: Vec<_> =
+            stable.take(MOST_GUESSES).map(|orbit| (orbit.state.clone(), orbit.periods)).collect();
+        let beta = system.parameters.beta;
+        let last = crate::model::ParameterSet { beta, ..*self.system.parameters };
+        // The excitation's amplitude is in no table.
+        if last == *system.parameters && self.system.law == system.law {
+            self.integrator.iter_mut().for_each(|integrator| integrator.set_beta(beta));
+            self.known.clear();
+            self.system = system.clone();
+        } else {
+            *self = Self::new(system);
+        }
+        self.guesses = guesses;
     }
 
     /// What motion the start in `initial` (length 2N + 1) at t = 0 leads to.
@@ -141,7 +165,10 @@ impl Settler {
                 integrator.restart(initial, settings)?;
                 integrator
             }
-            None => Collocation::new(&self.system, initial, settings)?,
+            None => {
+                let tables = self.solver.map().tables();
+                Collocation::with_tables(&self.system, initial, tables, settings)?
+            }
         };
         let mut run = Run {
             integrator,
@@ -155,6 +182,7 @@ impl Settler {
             notes: Vec::new(),
             tips: Vec::new(),
             failed: Vec::new(),
+            far: Vec::new(),
             effort,
             settler: self,
         };
@@ -181,6 +209,24 @@ impl Settler {
         } else {
             solver.find(state, beta, periods).ok()?
         };
+        self.learn(solver, convergence, periods)
+    }
+
+    /// The orbits near the motions of a system like this one, as indices into those known.
+    fn find_guessed(&mut self) -> Vec<usize> {
+        let beta = self.system.parameters.beta;
+        let guesses = std::mem::take(&mut self.guesses);
+        let found = guesses.into_iter().filter_map(|(state, periods)| {
+            let mut solver = self.solver.clone();
+            let convergence = solver.follow(&state, beta, periods).ok()?;
+            self.learn(solver, convergence, periods)
+        });
+        found.collect()
+    }
+
+    /// The orbit of `periods` that `solver` has found, as an index into those known.
+    fn learn(&mut self, mut solver: OrbitSolver, convergence: Convergence, periods: usize) -> Option<usize> {
+        let beta = self.system.parameters.beta;
         let gap = self.system.equilibrium.gap;
         let found = solver.state().to_vec();
         if let Some(index) = self.known.iter().position(|known| known.holds(&found, SAME * gap)) {
@@ -213,6 +259,8 @@ struct Run<'a> {
     tips: Vec<f64>,
     /// Periods of which no orbit was found, and the instant of that.
     failed: Vec<(usize, usize)>,
+    /// Periods of which a stable orbit was found that the run was not near: its index, and the distance from it then.
+    far: Vec<(usize, usize, f64)>,
 }
 
 /// What is recorded of a motion that is near no periodic one.
@@ -375,6 +423,13 @@ impl Run<'_> {
 
     /// The same, of orbits newly looked for behind the last states.
     fn near_found(&mut self) -> Option<(usize, Relation)> {
+        for found in self.settler.find_guessed() {
+            let near = self.relation(found);
+            if matches!(near, Some((_, Relation::Reached { .. } | Relation::Approaching { .. }))) {
+                return near;
+            }
+            self.note_far(found, near);
+        }
         let mut candidates = Vec::new();
         let recurring = self.strobe.recurrence(&self.settler.system).and_then(|found| found.period);
         candidates.extend(recurring);
@@ -389,10 +444,14 @@ impl Run<'_> {
             while periods <= MOST_PERIODS {
                 let recently =
                     |(tried, instant): &(usize, usize)| *tried == periods && self.instants < AGAIN * instant;
-                if self.failed.iter().any(recently) {
+                let last = self.strobe.before_last(0).to_vec();
+                let nearer = |(tried, orbit, distance): &(usize, usize, f64)| {
+                    *tried == periods && self.settler.known[*orbit].distance_lately(&self.strobe) < *distance
+                };
+                // On its way to the orbit found before it would find that one again.
+                if self.failed.iter().any(recently) || self.far.iter().any(nearer) {
                     break;
                 }
-                let last = self.strobe.before_last(0).to_vec();
                 let Some(found) = self.settler.find(&last, periods) else {
                     self.failed.retain(|(tried, _)| *tried != periods);
                     self.failed.push((periods, self.instants));
@@ -403,6 +462,7 @@ impl Run<'_> {
                     return near;
                 }
                 best = best.or(near);
+                self.note_far(found, near);
                 let orbit = &self.settler.known[found].orbit;
                 let doubled = 2 * orbit.periods;
                 if orbit.instability() != Some(Instability::PeriodDoubling) || doubled <= periods {
@@ -412,6 +472,16 @@ impl Run<'_> {
             }
         }
         best
+    }
+
+    /// Notes how far the run is from a stable orbit that it is not near.
+    fn note_far(&mut self, orbit: usize, near: Option<(usize, Relation)>) {
+        let known = &self.settler.known[orbit];
+        let periods = known.orbit.periods;
+        self.far.retain(|(tried, _, _)| *tried != periods);
+        if near.is_none() && known.orbit.stable() {
+            self.far.push((periods, orbit, known.distance_lately(&self.strobe)));
+        }
     }
 
     /// Decides by the record once it is long enough, or begins or lengthens it.

@@ -7,6 +7,7 @@
 
 use crate::dynamics::integration::Step;
 use crate::dynamics::integration::propagator::BLOCK;
+use crate::dynamics::integration::rule::{NODES, NodeValues};
 use crate::dynamics::integration::variation::Variation;
 use crate::dynamics::orbits::period_map::scales;
 use crate::model::{ReducedSystem, RestForce};
@@ -73,12 +74,11 @@ impl Tangents {
             return;
         };
         let dimension = self.scales.len();
-        for vector in &mut self.vectors {
-            let mut nodes = tables.tip.free(vector);
-            variation.solve(&mut nodes);
-            for (value, slope) in nodes.iter_mut().zip(&slopes) {
-                *value *= slope;
-            }
+        let free = self.vectors.each_ref().map(|vector| tables.tip.free(vector));
+        let mut solved: [[f64; VECTORS]; NODES] = std::array::from_fn(|l| free.map(|nodes| nodes[l]));
+        variation.solve(&mut solved);
+        for (k, vector) in self.vectors.iter_mut().enumerate() {
+            let nodes: NodeValues = std::array::from_fn(|l| solved[l][k] * slopes[l]);
             tables.end(vector, &nodes, &mut self.end);
             vector[..dimension].copy_from_slice(&self.end[..dimension]);
         }

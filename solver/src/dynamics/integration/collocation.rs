@@ -115,20 +115,43 @@ impl Collocation {
         phase: f64,
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
-        let dimension = system.dimension();
-        check_state(initial, dimension)?;
-        let part = LinearPart::new(system);
         let grid = Grid::new(system, phase);
-        let propagator = Propagator::new(&part, grid.longest_step());
+        let propagator = Propagator::new(&LinearPart::new(system), grid.longest_step());
+        Self::prepared(system, initial, (grid, propagator, None), settings)
+    }
+
+    /// As [`Self::new`], where flow and tables of the longest step of `system` are there already.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(in crate::dynamics) fn with_tables(
+        system: &ReducedSystem,
+        initial: &[f64],
+        (propagator, tables): (&Propagator, &StepTables),
+        settings: Settings,
+    ) -> Result<Self, IntegrationError> {
+        let tables = Some(Box::new(tables.clone()));
+        Self::prepared(system, initial, (Grid::new(system, 0.0), propagator.clone(), tables), settings)
+    }
+
+    fn prepared(
+        system: &ReducedSystem,
+        initial: &[f64],
+        (grid, propagator, longest): (Grid, Propagator, Option<Box<StepTables>>),
+        settings: Settings,
+    ) -> Result<Self, IntegrationError> {
+        let dimension = system.dimension();
+        let mut tables = vec![None; DEEPEST_LEVEL + 1];
+        tables[0] = longest;
         let mut integrator = Self {
-            part,
+            part: propagator.part().clone(),
             propagator,
             grid,
             force: system.rest_force(),
             settings,
             beta: system.parameters.beta,
             gap: system.equilibrium.gap,
-            tables: vec![None; DEEPEST_LEVEL + 1],
+            tables,
             extended: vec![0.0; dimension + 2],
             end: vec![0.0; dimension.next_multiple_of(BLOCK)],
             rest: [0.0; NODES],
@@ -151,6 +174,11 @@ impl Collocation {
         self.excite();
         (self.settings, self.steps) = (settings, 0);
         Ok(())
+    }
+
+    /// Changes the excitation's amplitude, for the next run.
+    pub(in crate::dynamics) fn set_beta(&mut self, beta: f64) {
+        self.beta = beta;
     }
 
     /// Present time (dimensionless).

@@ -150,8 +150,8 @@ impl Rule {
 }
 
 /// `sum` += `factor` * `row`.
-#[inline]
-pub fn add_scaled(sum: &mut NodeValues, factor: f64, row: &NodeValues) {
+#[inline(always)]
+pub fn add_scaled<const K: usize>(sum: &mut [f64; K], factor: f64, row: &[f64; K]) {
     for (sum, value) in sum.iter_mut().zip(row) {
         *sum += factor * value;
     }

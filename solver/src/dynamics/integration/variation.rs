@@ -4,6 +4,7 @@
 //! at the nodes by (I - K D)^-1 T times that change. K is of the order of the step squared, so I - K D is near the
 //! identity and needs no pivoting; a step for which it is not is too long for the iteration as well.
 
+use super::propagator::BLOCK;
 use super::rule::{NODES, NodeValues, RULE, add_scaled};
 use super::tables::StepTables;
 
@@ -55,17 +56,22 @@ impl Variation {
         Some(factors)
     }
 
-    /// Replaces the right-hand side `x` by the solution.
-    #[inline]
-    pub(in crate::dynamics) fn solve(&self, x: &mut NodeValues) {
+    /// Replaces the right-hand sides, K of them with their values at a node side by side, by the solutions. Several at once
+    /// need not wait for one another.
+    #[inline(always)]
+    pub(in crate::dynamics) fn solve<const K: usize>(&self, x: &mut [[f64; K]; NODES]) {
         for k in 0..NODES {
-            let factor = x[k];
-            add_scaled(x, factor, &self.lower[k]);
+            let own = x[k];
+            for (row, factor) in x.iter_mut().zip(&self.lower[k]).skip(k + 1) {
+                add_scaled(row, *factor, &own);
+            }
         }
         for k in (0..NODES).rev() {
-            x[k] *= self.inverse_pivots[k];
-            let factor = x[k];
-            add_scaled(x, factor, &self.upper[k]);
+            let own = x[k].map(|value| value * self.inverse_pivots[k]);
+            x[k] = own;
+            for (row, factor) in x.iter_mut().zip(&self.upper[k]).take(k) {
+                add_scaled(row, *factor, &own);
+            }
         }
     }
 }
@@ -83,51 +89,74 @@ pub(in crate::dynamics) fn differentiate(
     scales: &[f64],
     columns: &mut [f64],
 ) -> Option<f64> {
-    let dimension = tables.dimension();
+    let (dimension, stride) = (tables.dimension(), tables.stride());
     let variation = Variation::new(&tables.tip.from_rest, slopes)?;
     let mut worst: f64 = 0.0;
-    for (j, column) in columns.chunks_exact_mut(tables.stride()).enumerate() {
-        let mut nodes;
-        if j < dimension {
-            nodes = tables.tip.from_state[j];
-            column.copy_from_slice(tables.end_column(j));
-        } else {
-            // Beta enters through both phases of the excitation.
-            nodes = [0.0; NODES];
-            column.fill(0.0);
-            for (part, j) in [(phase.0, j), (phase.1, j + 1)] {
-                add_scaled(&mut nodes, part, &tables.tip.from_state[j]);
-                add_padded(column, part, tables.end_column(j));
+    for (block, columns) in columns.chunks_mut(BLOCK * stride).enumerate() {
+        let first = block * BLOCK;
+        let mut nodes = [[0.0; BLOCK]; NODES];
+        for (j, column) in columns.chunks_exact_mut(stride).enumerate() {
+            let mut own;
+            if first + j < dimension {
+                own = tables.tip.from_state[first + j];
+                column.copy_from_slice(tables.end_column(first + j));
+            } else {
+                // Beta enters through both phases of the excitation.
+                own = [0.0; NODES];
+                column.fill(0.0);
+                let phases = [phase.0, phase.1];
+                for (part, row) in phases.iter().zip(&tables.tip.from_state[dimension..]) {
+                    add_scaled(&mut own, *part, row);
+                }
+                add_combination(column, phases.into_iter(), |k| tables.end_column(dimension + k));
             }
+            nodes.iter_mut().zip(own).for_each(|(row, value)| row[j] = value);
         }
         variation.solve(&mut nodes);
-        for (value, slope) in nodes.iter_mut().zip(slopes) {
-            *value *= slope;
+        for (row, slope) in nodes.iter_mut().zip(slopes) {
+            row.iter_mut().for_each(|value| *value *= slope);
         }
-        for (l, value) in nodes.iter().enumerate() {
-            add_padded(column, *value, tables.end_column(dimension + 2 + l));
+        for (j, column) in columns.chunks_exact_mut(stride).enumerate() {
+            add_combination(column, nodes.iter().map(|row| row[j]), |l| tables.end_column(dimension + 2 + l));
         }
-        if let Some(scale) = scales.get(j) {
-            worst = worst.max(high_degrees(&nodes) * scale);
+        let mut high = [0.0; BLOCK];
+        for weights in &RULE.highest {
+            let mut coefficients = [0.0; BLOCK];
+            for (weight, row) in weights.iter().zip(&nodes) {
+                add_scaled(&mut coefficients, *weight, row);
+            }
+            high.iter_mut().zip(coefficients).for_each(|(sum, coefficient)| *sum += coefficient.abs());
+        }
+        for (high, scale) in high.iter().zip(scales.iter().skip(first)) {
+            worst = worst.max(high * scale);
         }
     }
     Some(worst)
+}
+
+/// `sum` += the sum of `factors` times the columns of the same number, all padded to whole blocks. Block by block, so that
+/// the sums stay in registers.
+#[inline(always)]
+pub(in crate::dynamics) fn add_combination<'a>(
+    sum: &mut [f64],
+    factors: impl Iterator<Item = f64> + Clone,
+    column: impl Fn(usize) -> &'a [f64],
+) {
+    for (block, sum) in sum.as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
+        let mut sums = *sum;
+        for (l, factor) in factors.clone().enumerate() {
+            if let Some(entries) = column(l).as_chunks::<BLOCK>().0.get(block) {
+                add_scaled(&mut sums, factor, entries);
+            }
+        }
+        *sum = sums;
+    }
 }
 
 /// Sum of the sizes of the two highest Legendre coefficients of what has these node values.
 #[inline]
 pub(in crate::dynamics) fn high_degrees(values: &NodeValues) -> f64 {
     RULE.highest.iter().map(|row| row.iter().zip(values).map(|(a, b)| a * b).sum::<f64>().abs()).sum()
-}
-
-/// `sum` += `factor` * `column`, both padded to an even length: whole vectors of two.
-#[inline(always)]
-pub(in crate::dynamics) fn add_padded(sum: &mut [f64], factor: f64, column: &[f64]) {
-    let (sums, entries) = (sum.as_chunks_mut::<2>().0, column.as_chunks::<2>().0);
-    for (sum, entry) in sums.iter_mut().zip(entries) {
-        sum[0] += factor * entry[0];
-        sum[1] += factor * entry[1];
-    }
 }
 
 #[cfg(test)]
@@ -140,11 +169,12 @@ mod tests {
         let kernel: [NodeValues; NODES] = std::array::from_fn(|l| std::array::from_fn(|j| entry(j, l)));
         let slopes: NodeValues = std::array::from_fn(|l| 1.0 - 0.4 * l as f64);
         let right: NodeValues = std::array::from_fn(|l| (l as f64).cos());
-        let mut x = right;
+        let mut x = right.map(|value| [value, -2.0 * value, 0.0]);
         Variation::new(&kernel, &slopes).expect("near the identity").solve(&mut x);
         for j in 0..NODES {
-            let sum: f64 = (0..NODES).map(|l| entry(j, l) * slopes[l] * x[l]).sum();
-            assert!((x[j] - sum - right[j]).abs() < 1e-14);
+            let sum: f64 = (0..NODES).map(|l| entry(j, l) * slopes[l] * x[l][0]).sum();
+            assert!((x[j][0] - sum - right[j]).abs() < 1e-14);
+            assert!((x[j][1] + 2.0 * x[j][0]).abs() < 1e-14 && x[j][2] == 0.0);
         }
     }
 

@@ -18,7 +18,7 @@ use crate::dynamics::integration::linear::LinearPart;
 use crate::dynamics::integration::propagator::Propagator;
 use crate::dynamics::integration::rule::{NodeValues, add_scaled};
 use crate::dynamics::integration::tables::StepTables;
-use crate::dynamics::integration::variation::{add_padded, differentiate, high_degrees};
+use crate::dynamics::integration::variation::{add_combination, differentiate, high_degrees};
 use crate::dynamics::integration::{ESCAPE_DISPLACEMENT, Step};
 use crate::model::{ReducedSystem, RestForce};
 
@@ -109,6 +109,11 @@ impl PeriodMap {
         Self { deepest: deepest.min(DEEPEST_LEVEL), ..self }
     }
 
+    /// Flow and tables of a step.
+    pub(in crate::dynamics) fn tables(&self) -> (&Propagator, &StepTables) {
+        (&self.propagator, &self.tables)
+    }
+
     /// Length 2N + 1 of the state.
     pub fn dimension(&self) -> usize {
         self.tables.dimension()
@@ -173,6 +178,29 @@ impl PeriodMap {
         state: &[f64],
         beta: f64,
         periods: usize,
+        observer: impl FnMut(&Step<'_>, &StepDerivative<'_>),
+    ) -> Result<f64, OrbitError> {
+        self.run::<true>(state, beta, periods, observer)
+    }
+
+    /// Carries `state` alone, in the same manner: a third of the work, and the derivative is then meaningless.
+    ///
+    /// # Errors
+    /// As [`Self::apply`].
+    pub(in crate::dynamics) fn carry(
+        &mut self,
+        state: &[f64],
+        beta: f64,
+        periods: usize,
+    ) -> Result<f64, OrbitError> {
+        self.run::<false>(state, beta, periods, |_, _| ())
+    }
+
+    fn run<const DERIVED: bool>(
+        &mut self,
+        state: &[f64],
+        beta: f64,
+        periods: usize,
         mut observer: impl FnMut(&Step<'_>, &StepDerivative<'_>),
     ) -> Result<f64, OrbitError> {
         let (dimension, stride) = (self.dimension(), self.tables.stride());
@@ -181,9 +209,11 @@ impl PeriodMap {
             return Err(OrbitError::Periods { periods, most: MOST_PERIODS });
         }
         self.extended[..dimension].copy_from_slice(state);
-        self.product.fill(0.0);
-        for j in 0..dimension {
-            self.product[j * stride + j] = 1.0;
+        if DERIVED {
+            self.product.fill(0.0);
+            for j in 0..dimension {
+                self.product[j * stride + j] = 1.0;
+            }
         }
         let mut worst: f64 = 0.0;
         for number in 0..periods * self.steps {
@@ -198,19 +228,26 @@ impl PeriodMap {
                 _ => self.solve(&self.force, time),
             }?;
             let tables = &self.tables;
-            let slopes = self.force.slope_at(&tip);
-            let variation = differentiate(tables, &slopes, (sine, cosine), &self.scales, &mut self.step)
-                .ok_or(OrbitError::Unresolved { steps: self.steps })?;
+            let mut variation = 0.0;
+            if DERIVED {
+                let slopes = self.force.slope_at(&tip);
+                variation = differentiate(tables, &slopes, (sine, cosine), &self.scales, &mut self.step)
+                    .ok_or(OrbitError::Unresolved { steps: self.steps })?;
+            }
             let gap = tip.iter().fold(self.gap, |most, s| most.max(s.abs()));
             let end = tables.end_gain / TOLERANCE;
             let motion = high_degrees(&rest) / gap * end.max(tables.gain / TOLERANCE_WITHIN);
             worst = worst.max(motion).max(variation * end);
-            let (start, propagator) = (&self.extended, &self.propagator);
-            let step = Step { time, start, rest: &rest, tip: &tip, tables, propagator, index };
-            observer(&step, &StepDerivative { columns: &self.step, stride, dimension });
+            if DERIVED {
+                let (start, propagator) = (&self.extended, &self.propagator);
+                let step = Step { time, start, rest: &rest, tip: &tip, tables, propagator, index };
+                observer(&step, &StepDerivative { columns: &self.step, stride, dimension });
+            }
             tables.end(&self.extended, &rest, &mut self.end);
             self.extended[..dimension].copy_from_slice(&self.end[..dimension]);
-            self.accumulate();
+            if DERIVED {
+                self.accumulate();
+            }
         }
         Ok(worst)
     }
@@ -284,9 +321,7 @@ impl PeriodMap {
             } else {
                 next.copy_from_slice(&self.step[j * stride..]);
             }
-            for (value, column) in old[..dimension].iter().zip(self.step.chunks_exact(stride)) {
-                add_padded(next, *value, column);
-            }
+            add_combination(next, old[..dimension].iter().copied(), |k| &self.step[k * stride..]);
         }
         std::mem::swap(&mut self.next, &mut self.product);
     }
