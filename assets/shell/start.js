@@ -17,6 +17,8 @@ if (embedded) {
 const EARLY = {
   de: {
     "Loading": "Wird geladen",
+    "A shaken beam with a magnet at its tip makes electricity.":
+      "Ein geschüttelter Balken mit einem Magneten an der Spitze erzeugt Strom.",
     "Reload": "Neu laden",
     "Start over": "Neu beginnen",
     "Copy state": "Zustand kopieren",
@@ -29,6 +31,7 @@ const EARLY = {
   },
   zh: {
     "Loading": "载入中",
+    "A shaken beam with a magnet at its tip makes electricity.": "受激励的梁，端部有磁体，能够发电。",
     "Reload": "重新载入",
     "Start over": "重新开始",
     "Copy state": "复制状态",

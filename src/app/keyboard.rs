@@ -6,7 +6,7 @@ use egui::{Context, Id, Key, Modifiers, Popup, Ui};
 use super::command::{Command, Commands};
 use super::live::LiveAction;
 use super::panels::spec::Place;
-use super::panels::{list, shortcuts};
+use super::panels::{greeting, list, shortcuts};
 use super::view::{Panel, Tab, View};
 use super::widgets::parameter_slider;
 
@@ -28,7 +28,8 @@ const AROUND: f32 = 12.0;
 
 /// Turns keys into commands, unless a text is being typed or something lies over the page, which have keys of their own.
 pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool, commands: &mut Commands) {
-    if context.text_edit_focused() || shortcuts::is_open(context) || Popup::is_any_open(context) {
+    let covered = shortcuts::is_open(context) || greeting::is_open(context) || Popup::is_any_open(context);
+    if context.text_edit_focused() || covered {
         return;
     }
     let mut help = false;

@@ -18,6 +18,7 @@ pub(super) fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui)
     if let Some(embed) = context.embed {
         return panels::embedded::show(context, embed, notice, ui);
     }
+    panels::greeting::show(context, ui);
     let tokens = theme::tokens(ui);
     let bar = egui::Frame::new().fill(tokens.bar).inner_margin(Margin::symmetric(14, 7));
     top_panel(ui, "bar", bar, |ui| panels::top_bar::show(context, ui));

@@ -86,6 +86,9 @@ impl Page {
         let mut page = Self { files, browser, console: Vec::new(), errors_expected: false };
         page.resize(width, height, theme);
         page.goto();
+        // The greeting of a first visit.
+        let past = page.find("Look around", &["Button"]);
+        page.click(past.at(0.5, 0.5));
         page
     }
 

@@ -142,6 +142,10 @@ impl Page {
         let embedded = crate::app::embed::Embed::read(&search, &crate::app::panels::parts::parts()).is_some();
         // An embedded page begins with what its address says, and leaves what the whole page remembers alone.
         let keeper = if embedded { storage::Keeper::absent() } else { storage::Keeper::open() };
+        let is_first_visit = !embedded && keeper.stored().is_none() && address::fragment().is_empty();
+        if is_first_visit {
+            crate::app::panels::greeting::open(context);
+        }
         let crew = crew(context.clone());
         let mut app = App::new(context, keeper.stored(), Rc::clone(&crew));
         app.prefer_language(address::page_language());

@@ -239,6 +239,6 @@ mod tests {
         assert_eq!((app.view.step, app.view.scenario.parameters.beta), (2, 3e-3));
         app.open_link("#v=1&lesson=juggling");
         let notice = app.notice.take().expect("a notice");
-        assert!(notice.contains("lesson = juggling (allowed are resonance, quadratic,"), "{notice}");
+        assert!(notice.contains("lesson = juggling (allowed are tour, resonance,"), "{notice}");
     }
 }

@@ -11,7 +11,8 @@ use super::data::Lesson;
 pub const STEPS: usize = 12;
 
 /// Names and texts of the lessons, in the order in which they are offered.
-const SOURCES: [(&str, &str); 10] = [
+const SOURCES: [(&str, &str); 11] = [
+    ("tour", include_str!("../../../assets/lessons/tour.json")),
     ("resonance", include_str!("../../../assets/lessons/resonance.json")),
     ("quadratic", include_str!("../../../assets/lessons/quadratic.json")),
     ("first-tongue", include_str!("../../../assets/lessons/first-tongue.json")),
@@ -32,6 +33,11 @@ impl LessonId {
     /// All of them, in the order in which they are offered.
     pub fn all() -> impl Iterator<Item = Self> {
         (0..SOURCES.len()).map(Self)
+    }
+
+    /// The first minute.
+    pub fn tour() -> Self {
+        Self(0)
     }
 
     /// The lesson of that name.

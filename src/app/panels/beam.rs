@@ -22,10 +22,32 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 /// The same with a picture of this height.
 pub(super) fn show_in(context: &mut Context<'_>, ui: &mut Ui, height: f32) {
     let Some(shown) = context.shown() else { return };
+    let run = &shown.run;
+    let slower = SECONDS_PER_PERIOD / (run.system.parameters.period() * shown.scenario.units().time);
+    let hint = match run.outcome() {
+        Outcome::Completed if slower >= 1.05 => fill("{factor} times slower", &[("factor", &short(slower))]),
+        Outcome::Completed => String::new(),
+        Outcome::Escaped { .. } => tr("after the escape").to_owned(),
+        Outcome::Contact { .. } => tr("at contact").to_owned(),
+    };
+    let (icon, label) =
+        if context.view.beam_moves { (Icon::Pause, tr("Hold")) } else { (Icon::Play, tr("Let it move")) };
+    let card = Card::new(tr("The beam"))
+        .hint(&hint)
+        .button(icon, label)
+        .hugging()
+        .show(ui, |ui| picture(context, ui, height, false));
+    if card.pressed.is_some() {
+        context.commands.push(Command::MoveBeam(!context.view.beam_moves));
+    }
+}
+
+/// The moving picture alone, this high, its parts named where it is to be `labelled`.
+pub(super) fn picture(context: &Context<'_>, ui: &mut Ui, height: f32, labelled: bool) {
+    let Some(shown) = context.shown() else { return };
     let (run, curves) = (&shown.run, &shown.curves);
     let moves = context.view.beam_moves && run.outcome() == Outcome::Completed;
     let period = run.system.parameters.period();
-    let slower = SECONDS_PER_PERIOD / (period * shown.scenario.units().time);
     let [from, to] = curves.repeat;
     let clock = if context.view.beam_moves { ui.input(|input| input.time) } else { 0.0 };
     let time = match run.outcome() {
@@ -37,36 +59,27 @@ pub(super) fn show_in(context: &mut Context<'_>, ui: &mut Ui, height: f32) {
     let shape = curves::beam(&curves.shapes, &state);
     let gap = run.system.equilibrium.gap;
     let open = (gap + run.system.tip_displacement(&state)) / gap;
-    let hint = match run.outcome() {
-        Outcome::Completed if slower >= 1.05 => fill("{factor} times slower", &[("factor", &short(slower))]),
-        Outcome::Completed => String::new(),
-        Outcome::Escaped { .. } => tr("after the escape").to_owned(),
-        Outcome::Contact { .. } => tr("at contact").to_owned(),
-    };
-    let (icon, label) =
-        if context.view.beam_moves { (Icon::Pause, tr("Hold")) } else { (Icon::Play, tr("Let it move")) };
-    let card = Card::new(tr("The beam")).hint(&hint).button(icon, label).hugging().show(ui, |ui| {
-        let within = |shape: &[[f64; 2]]| shape.iter().all(|point| point[1].abs() < 1.0);
-        if !within(&shape) {
-            ui.label(tr("The tip has left the picture: the truncated force lets it go."));
-            return;
-        }
-        let extremes: Vec<&[[f64; 2]]> = curves
-            .extremes
-            .iter()
-            .map(Vec::as_slice)
-            .filter(|shape| !shape.is_empty() && within(shape))
-            .collect();
-        let base = p.beta * (p.omega * time).sin();
-        let mut beam = BeamView::new(&shape, -gap).base(base).extremes(&extremes);
-        if p.c0 != 0.0 && run.outcome() == Outcome::Completed {
-            beam = beam.gap(open);
-        }
-        beam.show(ui, height);
-    });
-    if card.pressed.is_some() {
-        context.commands.push(Command::MoveBeam(!context.view.beam_moves));
+    let within = |shape: &[[f64; 2]]| shape.iter().all(|point| point[1].abs() < 1.0);
+    if !within(&shape) {
+        ui.label(tr("The tip has left the picture: the truncated force lets it go."));
+        return;
     }
+    let extremes: Vec<&[[f64; 2]]> = curves
+        .extremes
+        .iter()
+        .map(Vec::as_slice)
+        .filter(|shape| !shape.is_empty() && within(shape))
+        .collect();
+    let base = p.beta * (p.omega * time).sin();
+    let mut beam = BeamView::new(&shape, -gap).base(base).extremes(&extremes);
+    if p.c0 != 0.0 && run.outcome() == Outcome::Completed {
+        beam = beam.gap(open);
+    }
+    if labelled {
+        let found = context.studies.inspection(&shown.scenario).filter(|(_, current)| *current);
+        beam = beam.labelled(found.and_then(|(found, _)| found.verdict.v_rms));
+    }
+    beam.show(ui, height);
     if moves {
         // Every frame takes time from the workers where there are few cores.
         let pause = if context.studies.is_busy() { 160 } else { 33 };

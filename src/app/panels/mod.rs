@@ -15,6 +15,7 @@ mod facts;
 pub(super) mod figure_boundaries;
 pub(super) mod figure_panels;
 mod frequency;
+pub(super) mod greeting;
 mod grid;
 pub(super) mod lessons;
 pub(super) mod list;

@@ -2,6 +2,7 @@
 
 use egui::{Context, Id, Modal, RichText, Ui};
 
+use super::greeting;
 use crate::app::text::{marked, tr};
 use crate::app::widgets::{Icon, icon_button};
 use crate::app::{fonts, theme};
@@ -67,7 +68,10 @@ pub(in crate::app) fn show(ui: &Ui) {
         ui.set_width(WIDTH.min(page.x - 64.0));
         let title = RichText::new(tr("Keys")).font(fonts::semibold(theme::size::HEADING));
         ui.label(title.color(tokens.text_strong));
-        egui::ScrollArea::vertical().max_height(page.y - 160.0).show(ui, |ui| {
+        let room = page.y - 160.0;
+        // In a modal it would shrink to what its first picture had.
+        let scroll = egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room);
+        scroll.show(ui, |ui| {
             egui::Grid::new("keys").num_columns(2).spacing([18.0, 5.0]).show(ui, |ui| {
                 for (keys, effect) in KEYS {
                     ui.label(RichText::new(tr(keys)).color(tokens.text_strong));
@@ -77,7 +81,14 @@ pub(in crate::app) fn show(ui: &Ui) {
             });
         });
         ui.add_space(6.0);
-        ui.button(tr("Close")).clicked()
+        ui.horizontal(|ui| {
+            let greet = ui.button(tr("What is this?")).clicked();
+            if greet {
+                greeting::open(ui.ctx());
+            }
+            ui.button(tr("Close")).clicked() || greet
+        })
+        .inner
     });
     if shown.inner || shown.should_close() {
         ui.data_mut(|data| data.insert_temp(id(), false));

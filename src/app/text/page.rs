@@ -8,7 +8,7 @@ use crate::model::ForceLaw;
 use crate::sentence::Say;
 
 /// The texts as they stand there, without blanks at their ends.
-pub const TEXTS: [&str; 36] = [
+pub const TEXTS: [&str; 37] = [
     marked("Go to text controls"),
     marked("Harvester Lab: sliders and plots"),
     marked(
@@ -46,6 +46,7 @@ pub const TEXTS: [&str; 36] = [
     marked("This browser cannot show Harvester Lab"),
     marked("The graphics card or its driver gave the page up."),
     marked("Loading"),
+    marked("A shaken beam with a magnet at its tip makes electricity."),
     marked(
         "Your last scenario is kept in this browser. Reload continues it. If that stops again, copy it and start over.",
     ),

@@ -1,7 +1,8 @@
 //! The harvester itself: clamped beam, tip magnet, fixed magnet and the gap between them, to scale.
 
 use egui::{
-    Align2, Color32, CornerRadius, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, Ui, pos2, vec2,
+    Align2, Color32, CornerRadius, Painter, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2,
+    vec2,
 };
 
 use super::number;
@@ -32,13 +33,15 @@ pub struct BeamView<'a> {
     gap: Option<f64>,
     extremes: &'a [&'a [[f64; 2]]],
     magnification: Option<f64>,
+    /// The volts to be named, where the parts are.
+    labels: Option<Option<f64>>,
 }
 
 impl<'a> BeamView<'a> {
     /// The beam through the points `(x, z)` from the clamp to the tip, relative to the clamp, and the height of the
     /// fixed magnet's near face above the undeflected beam (negative: below it).
     pub fn new(shape: &'a [[f64; 2]], fixed_magnet: f64) -> Self {
-        Self { shape, fixed_magnet, base: 0.0, gap: None, extremes: &[], magnification: None }
+        Self { shape, fixed_magnet, base: 0.0, gap: None, extremes: &[], magnification: None, labels: None }
     }
 
     /// How far the clamp is displaced now.
@@ -64,6 +67,12 @@ impl<'a> BeamView<'a> {
     /// extremes as well.
     pub fn magnification(mut self, factor: f64) -> Self {
         self.magnification = Some(factor);
+        self
+    }
+
+    /// Names the parts, for whoever has never seen the device; the load gets so many volts, where that is known.
+    pub fn labelled(mut self, volts: Option<f64>) -> Self {
+        self.labels = Some(volts);
         self
     }
 
@@ -140,6 +149,58 @@ impl<'a> BeamView<'a> {
             if wall.bottom() > rect.bottom() - NOTE { wall.right() - rect.left() + 6.0 } else { 10.0 };
         let at = rect.left_bottom() + vec2(aside, -7.0);
         painter.text(at, Align2::LEFT_BOTTOM, note, fonts::regular(theme::size::SMALL), tokens.text_weak);
+        if let Some(volts) = self.labels {
+            let middle_of_beam = view.at(0.45, self.height_at(0.45) + base);
+            self.name_parts(&painter, tokens, volts, (wall, middle_of_beam, fixed));
+        }
+    }
+
+    /// Height of the beam at the part `x` of its length.
+    fn height_at(&self, x: f64) -> f64 {
+        let next = self.shape.iter().position(|point| point[0] >= x);
+        next.and_then(|index| self.shape.get(index)).map_or(0.0, |point| point[1])
+    }
+
+    fn name_parts(
+        &self,
+        painter: &Painter,
+        tokens: &theme::Tokens,
+        volts: Option<f64>,
+        (wall, beam, fixed): (Rect, Pos2, Rect),
+    ) {
+        let font = fonts::regular(theme::size::BODY);
+        let line = Stroke::new(1.0, tokens.ruler);
+        let rect = painter.clip_rect();
+        let name = |at: Pos2, align: Align2, text: &str| {
+            painter.text(at, align, text, font.clone(), tokens.text_strong);
+        };
+        // The foot, with an arrow for what is done to it.
+        let arrow = Stroke::new(2.0, tokens.exact);
+        let x = wall.left() - 7.0;
+        painter.line_segment([pos2(x, wall.top() + 4.0), pos2(x, wall.bottom() - 4.0)], arrow);
+        for (end, way) in [(wall.top() + 4.0, 1.0), (wall.bottom() - 4.0, -1.0)] {
+            painter.line_segment([pos2(x, end), pos2(x - 4.0, end + 6.0 * way)], arrow);
+            painter.line_segment([pos2(x, end), pos2(x + 4.0, end + 6.0 * way)], arrow);
+        }
+        name(pos2(wall.right() + 8.0, wall.top() + 2.0), Align2::LEFT_CENTER, tr("shaken foot"));
+        // The beam, above it.
+        let above = pos2(beam.x, rect.top() + 30.0);
+        painter.line_segment([above, beam], line);
+        name(above, Align2::CENTER_BOTTOM, tr("beam with a layer of ceramic"));
+        // The magnets, beside the fixed one.
+        name(fixed.left_center() - vec2(8.0, 0.0), Align2::RIGHT_CENTER, tr("magnets, which repel"));
+        // The load, on two wires from the ceramic.
+        let load = Rect::from_center_size(pos2(beam.x, rect.bottom() - 18.0), vec2(34.0, 12.0));
+        for (end, down) in [(load.left_center(), 12.0), (load.right_center(), -12.0)] {
+            let foot = pos2(beam.x - down, beam.y);
+            painter.line_segment([foot, pos2(foot.x, load.top())], line);
+            painter.line_segment([pos2(foot.x, load.top()), end], line);
+        }
+        painter.rect(load, CornerRadius::same(2), tokens.inset, line, StrokeKind::Middle);
+        let text = volts.map_or(tr("load").to_owned(), |volts| {
+            fill("load: {volts} V", &[("volts", &number::significant(volts, 3))])
+        });
+        name(load.right_center() + vec2(8.0, 0.0), Align2::LEFT_CENTER, &text);
     }
 
     fn gap_arrow(&self, painter: &Painter, ui: &Ui, x: f32, from: f32, to: f32, rect: Rect) {
