@@ -76,7 +76,7 @@ fn doors(commands: &mut Commands, ui: &mut Ui) -> bool {
     let doors = [
         (tr("Tour"), tr("one minute, four touches"), Command::Lesson(Action::Begin(LessonId::tour()))),
         (tr("Lessons"), tr("one idea after the other"), Command::OpenTab(Tab::Lessons)),
-        (tr("Design"), tr("a device of your own, in watts"), Command::OpenTab(Tab::Design)),
+        (tr("Design"), tr("your own device, in watts"), Command::OpenTab(Tab::Design)),
     ];
     let beside = ui.available_width() >= 3.0 * DOOR;
     let width = if beside {
