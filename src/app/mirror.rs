@@ -74,10 +74,10 @@ impl App {
         let crew = self.crew.borrow();
         let found = crew.studies.inspection(&shown.scenario).filter(|(_, current)| *current);
         let verdict = found.map(|(found, _)| &found.verdict);
-        let Reading { headline, facts, remarks, .. } =
+        let Reading { headline, plain, facts, warnings, remarks, .. } =
             Reading::new(shown, self.session.boundaries.as_ref(), verdict);
         let mut sentences = format!("{headline}: {}.", facts.join(", "));
-        for remark in remarks {
+        for remark in [plain].into_iter().filter(|text| !text.is_empty()).chain(warnings).chain(remarks) {
             let mut letters = remark.chars();
             let first = letters.next().map(char::to_uppercase);
             sentences

@@ -26,9 +26,13 @@ pub(super) struct Reading {
     pub tone: Tone,
     /// What the motion is.
     pub headline: String,
+    /// The same for somebody who does not know the word.
+    pub plain: String,
     /// What it gives.
     pub facts: Vec<String>,
-    /// What to know about it.
+    /// What to be careful about.
+    pub warnings: Vec<String>,
+    /// What else is known of it.
     pub remarks: Vec<String>,
 }
 
@@ -36,62 +40,80 @@ impl Reading {
     /// Reads `shown`, with the boundaries of its structure when there are some, and the `verdict` on the same scenario
     /// once it is there: until then only stroboscopic points that have settled say anything.
     pub(super) fn new(shown: &Shown, boundaries: Option<&Boundaries>, verdict: Option<&Verdict>) -> Self {
-        let (tone, headline) = verdict.map_or_else(|| first_look(shown), |verdict| headline(verdict.motion));
-        let mut facts = Vec::new();
-        facts.extend(resonance(shown, boundaries, verdict));
-        facts.extend(verdict.and_then(multiplier));
-        facts.extend(measured(shown, verdict));
-        let mut remarks = Vec::new();
+        let (tone, headline, plain) =
+            verdict.map_or_else(|| first_look(shown), |verdict| headline(verdict.motion));
+        let facts = measured(shown, verdict);
+        let (mut warnings, mut remarks) = (Vec::new(), Vec::new());
         match verdict {
             Some(verdict) => {
+                remarks.extend(resonance(shown, boundaries, verdict));
+                remarks.extend(multiplier(verdict));
                 remarks.extend(verdict.forced.as_ref().and_then(|forced| forced_motion(forced, verdict)));
                 remarks.extend(verdict.coexists.iter().map(|other| say(other)));
                 remarks.extend(disagreement(verdict));
-                remarks.extend(verdict.warnings.iter().map(|warning| say(warning)));
+                warnings.extend(verdict.warnings.iter().map(|warning| say(warning)));
             }
             None => {
                 remarks.extend(settling(shown));
-                remarks.extend(force_law(shown).map(|warning| say(&warning)));
+                warnings.extend(force_law(shown).map(|warning| say(&warning)));
             }
         }
         remarks.extend(boundaries.and_then(|boundaries| theories(shown, boundaries)));
         if shown.scenario.base().loss_tangent > 0.0 {
             remarks.push(tr("without the dielectric loss, which the Design tab counts").to_owned());
         }
-        Self { tone, headline, facts, remarks }
+        Self { tone, headline, plain, facts, warnings, remarks }
     }
 }
 
 /// By the run alone.
-fn first_look(shown: &Shown) -> (Tone, String) {
+fn first_look(shown: &Shown) -> (Tone, String, String) {
+    let open = |headline: &str, plain: &str| (Tone::Plain, headline.to_owned(), plain.to_owned());
     match (shown.run.outcome(), shown.run.recurrence.map(|found| found.period.filter(|_| found.settled))) {
         (Outcome::Escaped { time }, _) => headline(Motion::Escape { time }),
         (Outcome::Contact { time }, _) => headline(Motion::Contact { time }),
-        (Outcome::Completed, None) => (Tone::Plain, tr("Too short to classify").to_owned()),
+        (Outcome::Completed, None) => open(tr("Too short to classify"), tr("let it run longer")),
         (Outcome::Completed, Some(Some(periods))) => headline(Motion::Periodic { periods }),
-        (Outcome::Completed, Some(None)) => (Tone::Plain, tr("Not settled yet").to_owned()),
+        (Outcome::Completed, Some(None)) => {
+            open(tr("Not settled yet"), tr("it still remembers how it was started"))
+        }
     }
 }
 
-fn headline(motion: Motion) -> (Tone, String) {
-    match motion {
-        Motion::Periodic { periods: 1 } => (Tone::Plain, tr("Period 1").to_owned()),
-        Motion::Periodic { periods } => (Tone::Notable, fill("Period {periods}", &[("periods", &periods)])),
-        Motion::Quasiperiodic => (Tone::Notable, tr("Quasiperiodic: a torus").to_owned()),
-        Motion::Chaotic => (Tone::Notable, tr("Chaotic").to_owned()),
+/// How a motion is coloured, what it is called, and what that means.
+fn headline(motion: Motion) -> (Tone, String, String) {
+    let (tone, name, plain) = match motion {
+        Motion::Periodic { periods: 1 } => {
+            (Tone::Plain, tr("Period 1").to_owned(), tr("it swings in step with the shaking"))
+        }
+        Motion::Periodic { periods } => {
+            let name = fill("Period {periods}", &[("periods", &periods)]);
+            let plain = fill("it repeats only every {periods} shakes", &[("periods", &periods)]);
+            return (Tone::Notable, name, plain);
+        }
+        Motion::Quasiperiodic => {
+            let name = tr("Quasiperiodic: a torus").to_owned();
+            (Tone::Notable, name, tr("two rhythms at once, so it never quite repeats"))
+        }
+        Motion::Chaotic => {
+            (Tone::Notable, tr("Chaotic").to_owned(), tr("no swing is like another, and it never repeats"))
+        }
         Motion::Escape { time } => {
-            (Tone::Alarming, fill("Escape at t = {time}", &[("time", &significant(time, 4))]))
+            let name = fill("Escape at t = {time}", &[("time", &significant(time, 4))]);
+            (Tone::Alarming, name, tr("the tip leaves and does not come back"))
         }
         Motion::Contact { time } => {
-            (Tone::Alarming, fill("Contact at t = {time}", &[("time", &significant(time, 4))]))
+            let name = fill("Contact at t = {time}", &[("time", &significant(time, 4))]);
+            (Tone::Alarming, name, tr("the tip hits the fixed magnet"))
         }
-        Motion::Undecided { why } => (Tone::Notable, fill("Undecided: {why}", &[("why", &why)])),
-    }
+        Motion::Undecided { why } => (Tone::Notable, fill("Undecided: {why}", &[("why", &why)]), ""),
+    };
+    (tone, name, plain.to_owned())
 }
 
 /// Which resonance a motion other than the forced one belongs to.
-fn resonance(shown: &Shown, boundaries: Option<&Boundaries>, verdict: Option<&Verdict>) -> Option<String> {
-    let motion = verdict?.motion;
+fn resonance(shown: &Shown, boundaries: Option<&Boundaries>, verdict: &Verdict) -> Option<String> {
+    let motion = verdict.motion;
     let near = boundaries?.resonance_near(shown.run.system.parameters.omega)?;
     let name = match (motion, near) {
         (Motion::Periodic { periods }, Resonance::First) if periods % 2 == 0 => tr("subharmonic of mode 1"),

@@ -65,7 +65,7 @@ impl App {
             words: self.report_words(),
             headline: reading.headline,
             facts: reading.facts,
-            remarks: reading.remarks,
+            remarks: [reading.warnings, reading.remarks].concat(),
             limits: self.limits(),
             device: device_rows(&self.view),
             plots,

@@ -1,13 +1,17 @@
 //! The bar above the plots that says in words what they show.
 
-use egui::text::{LayoutJob, TextFormat};
-use egui::{Align, RichText, Ui};
+use egui::collapsing_header::CollapsingState;
+use egui::scroll_area::ScrollSource;
+use egui::text::{LayoutJob, TextFormat, TextWrapping};
+use egui::{Align, Align2, Color32, ScrollArea, Sense, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2};
 
 use super::Context;
 use super::design::safety::Safety;
 use crate::app::reading::{Reading, Tone};
 use crate::app::session::{Shown, Status};
-use crate::app::text::fill;
+use crate::app::text::{fill, tr};
+use crate::app::widgets::icon::BUTTON_SIDE;
+use crate::app::widgets::{Icon, icon_button};
 use crate::app::{fonts, theme};
 use crate::dynamics::{Outcome, Verdict};
 use crate::model::Demand;
@@ -35,57 +39,133 @@ pub(super) fn in_a_line(texts: &[String]) -> String {
     out
 }
 
-/// Draws the bar.
+/// Rows of the three parts of the bar, by its width alone: what is beneath must not move while a verdict changes.
+struct Rows {
+    headline: usize,
+    facts: usize,
+    details: usize,
+}
+
+impl Rows {
+    fn of(width: f32) -> Self {
+        let [headline, facts, details] = match width {
+            860.0.. => [1, 1, 3],
+            560.0.. => [1, 2, 5],
+            _ => [2, 3, 8],
+        };
+        Self { headline, facts, details }
+    }
+}
+
+/// Draws the bar: what anybody understands, and below it, when unfolded, what is known beside it.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
-    let Some(shown) = context.shown() else { return };
-    let failure = match context.session.status() {
-        Status::Failed(message) => Some(message),
-        _ => None,
-    };
-    let found = context.studies.inspection(&shown.scenario);
-    let verdict = found.filter(|(_, current)| *current).map(|(found, _)| &found.verdict);
-    let reading = Reading::new(shown, context.session.boundaries.as_ref(), verdict);
-    let colour = match (failure.is_some(), reading.tone) {
-        (true, _) | (_, Tone::Alarming) => tokens.danger,
-        (_, Tone::Notable) => tokens.warning,
-        (_, Tone::Plain) => tokens.ok,
-    };
-    let broken = broken(context, shown, verdict);
     let frame = egui::Frame::new()
         .fill(tokens.card)
         .stroke(tokens.edge())
         .corner_radius(theme::radius::CARD)
-        .inner_margin(egui::Margin { left: 16, right: 12, top: 8, bottom: 9 });
+        .inner_margin(egui::Margin { left: 16, right: 10, top: 7, bottom: 8 });
     let drawn = frame.show(ui, |ui| {
         ui.set_min_width(ui.available_width());
-        if let Some(message) = failure {
-            let text = fill("{message}. The last good state stays on the screen.", &[("message", &message)]);
-            ui.label(RichText::new(text).color(tokens.danger));
-            return;
-        }
-        ui.spacing_mut().item_spacing.y = 6.0;
-        let format =
-            |font, color| TextFormat { font_id: font, color, valign: Align::Center, ..Default::default() };
-        let mut line = LayoutJob::default();
-        line.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
-        let facts = format(fonts::regular(theme::size::BODY), tokens.text);
-        line.append(&in_a_line(&reading.facts), 12.0, facts);
-        let broken: String = broken
-            .iter()
-            .map(|text| SEPARATOR.to_owned() + &fill("beyond a limit: {text}", &[("text", text)]))
-            .collect();
-        line.append(&broken, 0.0, format(fonts::regular(theme::size::BODY), tokens.danger));
-        ui.label(line);
-        if !reading.remarks.is_empty() {
-            let remarks = in_a_line(&reading.remarks);
-            ui.label(RichText::new(remarks).small().color(tokens.text_weak));
-        }
+        ui.spacing_mut().item_spacing.y = 4.0;
+        contents(context, ui)
     });
     let rect = drawn.response.rect;
     let stripe = egui::Rect::from_min_max(rect.min, egui::pos2(rect.left() + 5.0, rect.bottom()));
     let rounding = egui::CornerRadius { nw: theme::radius::CARD, sw: theme::radius::CARD, ne: 0, se: 0 };
-    ui.painter().rect_filled(stripe, rounding, colour);
+    ui.painter().rect_filled(stripe, rounding, drawn.inner);
+}
+
+/// Draws what is in the bar; returns its colour.
+fn contents(context: &Context<'_>, ui: &mut Ui) -> Color32 {
+    let tokens = theme::tokens(ui);
+    let format =
+        |font, color| TextFormat { font_id: font, color, valign: Align::Center, ..Default::default() };
+    let body = |color| format(fonts::regular(theme::size::BODY), color);
+    let small = |color| format(fonts::regular(theme::size::SMALL), color);
+    let rows = Rows::of(ui.available_width());
+    let (mut first, mut second, mut rest) =
+        (LayoutJob::default(), LayoutJob::default(), LayoutJob::default());
+    let mut colour = tokens.ok;
+    if let Status::Failed(message) = context.session.status() {
+        colour = tokens.danger;
+        let text = fill("{message}. The last good state stays on the screen.", &[("message", &message)]);
+        second.append(&text, 0.0, body(colour));
+    } else if let Some(shown) = context.shown() {
+        let found = context.studies.inspection(&shown.scenario);
+        let verdict = found.filter(|(_, current)| *current).map(|(found, _)| &found.verdict);
+        let reading = Reading::new(shown, context.session.boundaries.as_ref(), verdict);
+        colour = match reading.tone {
+            Tone::Alarming => tokens.danger,
+            Tone::Notable => tokens.warning,
+            Tone::Plain => tokens.ok,
+        };
+        first.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
+        first.append(&reading.plain, 10.0, body(tokens.text));
+        second.append(&in_a_line(&reading.facts), 0.0, body(tokens.text));
+        for text in broken(context, shown, verdict) {
+            let text = SEPARATOR.to_owned() + &fill("beyond a limit: {text}", &[("text", &text)]);
+            second.append(&text, 0.0, body(tokens.danger));
+        }
+        let warnings = reading.warnings.iter().map(|text| SEPARATOR.to_owned() + text);
+        warnings.for_each(|text| second.append(&text, 0.0, body(tokens.warning)));
+        rest.append(&in_a_line(&reading.remarks), 0.0, small(tokens.text_weak));
+    }
+    let id = ui.make_persistent_id("details of the verdict");
+    let mut fold = CollapsingState::load_with_default_open(ui.ctx(), id, false);
+    let top = ui.cursor().min;
+    let right = top.x + ui.available_width();
+    let place = egui::Rect::from_min_size(pos2(right - BUTTON_SIDE, top.y - 1.0), Vec2::splat(BUTTON_SIDE));
+    paragraph(ui, first, rows.headline, theme::size::HEADING, right - BUTTON_SIDE - 8.0 - top.x);
+    paragraph(ui, second, rows.facts, theme::size::BODY, right - top.x);
+    if fold.is_open() {
+        details(ui, rest, rows.details);
+    }
+    let (icon, label) = if fold.is_open() {
+        (Icon::ChevronDown, tr("Hide the details"))
+    } else {
+        (Icon::ChevronRight, tr("Show the details"))
+    };
+    let mut corner = ui.new_child(UiBuilder::new().max_rect(place));
+    if icon_button(&mut corner, icon, label).clicked() {
+        fold.toggle(ui);
+    }
+    fold.store(ui.ctx());
+    colour
+}
+
+/// Height of so many rows of a text of this size.
+fn height(ui: &Ui, rows: usize, size: f32) -> f32 {
+    let row = ui.ctx().fonts_mut(|all| all.row_height(&fonts::regular(size)));
+    (row * rows as f32).ceil()
+}
+
+/// Text in just so many rows; what does not fit is told on touch.
+fn paragraph(ui: &mut Ui, mut job: LayoutJob, rows: usize, size: f32, width: f32) {
+    let (rect, response) = ui.allocate_exact_size(vec2(width, height(ui, rows, size)), Sense::hover());
+    job.wrap = TextWrapping { max_width: width, max_rows: rows, ..Default::default() };
+    let galley = ui.painter().layout_job(job);
+    let enabled = ui.is_enabled();
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, galley.text()));
+    let place = Align2::LEFT_CENTER.align_size_within_rect(galley.size(), rect);
+    ui.painter().galley(place.min, galley.clone(), Color32::PLACEHOLDER);
+    if galley.elided {
+        response.on_hover_text(galley.text());
+    }
+}
+
+/// Text with room for so many rows; of a longer one the rest is scrolled to, not by the wheel, which is the page's.
+fn details(ui: &mut Ui, job: LayoutJob, rows: usize) {
+    let room = height(ui, rows, theme::size::SMALL);
+    let size = vec2(ui.available_width(), room);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let mut child = ui.new_child(UiBuilder::new().max_rect(rect));
+    let source = ScrollSource { mouse_wheel: false, ..ScrollSource::default() };
+    ScrollArea::vertical()
+        .auto_shrink(false)
+        .max_height(room)
+        .scroll_source(source)
+        .show(&mut child, |ui| ui.label(job));
 }
 
 /// The limits of the Design tab that the motion in view breaks: that of the verdict, as the facts beside it, else the run.
@@ -109,6 +189,43 @@ fn broken(context: &Context<'_>, shown: &Shown, verdict: Option<&Verdict>) -> Ve
 #[cfg(test)]
 mod tests {
     use super::in_a_line;
+    use crate::app::rehearsal::Desk;
+
+    #[test]
+    fn plots_beneath_stay_where_they_are_whatever_the_verdict() {
+        let mut random = fastrand::Rng::with_seed(17);
+        for (width, open) in [(1440.0, true), (1000.0, false), (700.0, true), (360.0, true)] {
+            let mut desk = Desk::new(width, 900.0, "{}");
+            desk.work(3);
+            if open {
+                let button = desk.harness.find(egui::Role::Button, "Show the details").bounds.center();
+                desk.harness.click(button, |ui| desk.app.ui(ui));
+            }
+            let (mut tops, mut headlines) = (Vec::new(), Vec::new());
+            for point in 0..50 {
+                let near = if point % 3 == 0 { 8.1 } else { 1.0 + 40.0 * random.f64() };
+                let [omega, beta] = [near + 0.1 * random.f64(), 0.04 * random.f64().powi(2)];
+                let law = if point % 2 == 0 { "exact" } else { "quadratic" };
+                let json = format!(
+                    r#"{{"parameters":{{"omega":{omega},"beta":{beta}}},"model":{{"force":"{law}"}},"t_end":120.0}}"#
+                );
+                desk.app.load_json(&json).expect("a scenario");
+                for frames in [1, 4] {
+                    desk.work(frames);
+                    tops.push(desk.harness.find(egui::Role::Button, "Enlarge: ").bounds.top());
+                }
+                headlines.extend(desk.harness.texts.iter().map(|(text, _)| text.clone()).filter(|text| {
+                    ["Period", "Not settled", "Escape", "Contact", "Quasi", "Chaotic"]
+                        .iter()
+                        .any(|kind| text.starts_with(kind))
+                }));
+            }
+            headlines.sort();
+            headlines.dedup_by_key(|text| text.chars().take(8).collect::<String>());
+            assert!(headlines.len() >= 4, "{headlines:?}");
+            assert!(tops.iter().all(|top| *top == tops[0]), "{width}: {tops:?}");
+        }
+    }
 
     #[test]
     fn numbers_keep_their_units() {
