@@ -6,6 +6,7 @@ use egui::text::CCursorRange;
 use egui::{Align2, Frame, Id, Key, Margin, Rect, Stroke, TextEdit, Ui, WidgetInfo};
 
 use super::super::number;
+use super::typed;
 use crate::app::text::fill;
 use crate::app::theme;
 
@@ -43,7 +44,7 @@ pub(super) fn check(subject: &Subject<'_>, text: &str, range: &RangeInclusive<f6
     let allowed = range_text(range, subject.unit);
     let Subject { name, symbol, .. } = subject;
     let space = if symbol.is_empty() { "" } else { " " };
-    match number::parse(text) {
+    match typed::parse(text, subject.unit) {
         None => Err(fill(
             "{name}: “{text}” is not a number. Allowed: {allowed}.",
             &[("name", &format!("{name}{space}{symbol}")), ("text", &text.trim()), ("allowed", &allowed)],

@@ -67,13 +67,15 @@ impl Mapping {
         value.clamp(start, end)
     }
 
-    /// The value at a place, rounded to what the track can resolve, so that dragging leaves short numbers.
-    pub(super) fn rounded_value(&self, fraction: f64) -> f64 {
+    /// The value at a place, rounded to what the track can resolve, so that dragging leaves short numbers; `fine` for a
+    /// tenth of that.
+    pub(super) fn rounded_value(&self, fraction: f64, fine: bool) -> f64 {
         let value = self.value(fraction);
         let rounded = if self.floor.is_some() {
-            super::super::number::round_significant(value, 3)
+            super::super::number::round_significant(value, if fine { 4 } else { 3 })
         } else {
-            let resolution = 10_f64.powf(((self.range.end() - self.range.start()) / 1000.0).log10().floor());
+            let step = ((self.range.end() - self.range.start()) / 1000.0).log10().floor();
+            let resolution = 10_f64.powf(step - f64::from(u8::from(fine)));
             let decimals = usize::try_from((-resolution.log10()).round() as i64).unwrap_or(0);
             format!("{:.decimals$}", (value / resolution).round() * resolution).parse().unwrap_or(value)
         };
@@ -112,7 +114,8 @@ mod tests {
 
     #[test]
     fn dragging_leaves_short_numbers() {
-        assert_eq!(Mapping::linear(1.0..=40.0).rounded_value(0.182_345), 8.11);
-        assert_eq!(Mapping::logarithmic(1e-4..=1e-1, None).rounded_value(0.5), 3.16e-3);
+        assert_eq!(Mapping::linear(1.0..=40.0).rounded_value(0.182_345, false), 8.11);
+        assert_eq!(Mapping::logarithmic(1e-4..=1e-1, None).rounded_value(0.5, false), 3.16e-3);
+        assert_eq!(Mapping::linear(1.0..=40.0).rounded_value(0.182_345, true), 8.111);
     }
 }

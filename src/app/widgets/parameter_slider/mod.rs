@@ -7,10 +7,11 @@ mod rows;
 #[cfg(test)]
 mod tests;
 mod track;
+mod typed;
 
 use std::ops::RangeInclusive;
 
-use egui::{Align2, Response, Sense, Ui, pos2, vec2};
+use egui::{Align2, Area, Frame, Order, Response, Sense, Ui, pos2, vec2};
 
 use self::mapping::Mapping;
 use self::rows::{Needs, Rows};
@@ -20,6 +21,9 @@ use crate::app::{fonts, theme};
 
 pub use marks::Mark;
 pub use track::is_track;
+
+/// Width of the message at a field, points.
+const COMPLAINT: f32 = 220.0;
 
 /// What one frame of a slider did.
 #[derive(Debug, Clone)]
@@ -168,6 +172,9 @@ impl<'a> ParameterSlider<'a> {
             // A file, a link or an undo brought another value: the complaint is out of date.
             memory.error = None;
         }
+        if memory.error.is_some() && ui.input(|input| input.key_pressed(egui::Key::Escape)) {
+            memory.error = None;
+        }
         let typed = field::show(ui, id.with("field"), rows.field, &subject, before, &self.range, &mut memory);
 
         let direct = reset.or(marked).or(typed);
@@ -185,7 +192,7 @@ impl<'a> ParameterSlider<'a> {
         memory.value = new;
         memory.store(ui, memory_id);
         if let Some(message) = &error {
-            complain(ui, message);
+            complain(ui, id, rows.field, message);
         }
         SliderResponse { changed, released: track.released || direct.is_some(), error, track: track.response }
     }
@@ -249,9 +256,23 @@ impl<'a> ParameterSlider<'a> {
     }
 }
 
-/// The message under a control whose text was refused.
-fn complain(ui: &mut Ui, message: &str) {
+/// The message at a field whose text was refused, over what stands below, which stays where it is.
+fn complain(ui: &Ui, id: egui::Id, field: egui::Rect, message: &str) {
+    if !ui.is_rect_visible(field) {
+        return;
+    }
     let tokens = theme::tokens(ui);
     let text = egui::RichText::new(message).font(fonts::regular(theme::size::SMALL)).color(tokens.danger);
-    ui.add(egui::Label::new(text).wrap());
+    // What it covers can still be used.
+    Area::new(id.with("complaint"))
+        .order(Order::Foreground)
+        .interactable(false)
+        .pivot(Align2::RIGHT_TOP)
+        .fixed_pos(field.right_bottom() + vec2(0.0, 3.0))
+        .show(ui.ctx(), |ui| {
+            Frame::popup(ui.style()).show(ui, |ui| {
+                ui.set_max_width(COMPLAINT);
+                ui.add(egui::Label::new(text).wrap().selectable(false));
+            });
+        });
 }

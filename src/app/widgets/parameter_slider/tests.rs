@@ -69,6 +69,47 @@ fn it_is_found_by_its_label_and_dragged() {
 }
 
 #[test]
+fn with_shift_it_moves_a_tenth_as_far_and_resolves_a_hundredth_about_a_mark() {
+    let moved = |from: f64| {
+        let mut bench = Bench::new(from);
+        let node = bench.harness.find(Role::Slider, "Frequency");
+        let rail = node.bounds.shrink2(egui::vec2(8.0, 0.0));
+        let thumb = pos2(rail.left() + rail.width() * ((from - 1.0) / 40.0) as f32, rail.center().y);
+        let shift = egui::Event::ModifiersChanged(Modifiers::SHIFT);
+        bench.run(|harness, draw| harness.frame(vec![shift], draw));
+        bench.run(|harness, draw| harness.drag(thumb, thumb + egui::vec2(50.0, 0.0), draw));
+        let step = 40.0 / f64::from(rail.width());
+        ((bench.value - from) / 50.0, step)
+    };
+    let (point, step) = moved(21.0);
+    assert!((point / step - 0.1).abs() < 0.005, "{point} {step}");
+    let (point, _) = moved(8.1);
+    assert!(point > 0.0 && point < 0.01, "{point}");
+}
+
+#[test]
+fn a_complaint_moves_nothing_and_escape_takes_it_away() {
+    let mut bench = Bench::new(11.0);
+    let below = |bench: &mut Bench| {
+        let mut bottom = 0.0;
+        let value = &mut bench.value;
+        bench.harness.frame(Vec::new(), |ui| {
+            ParameterSlider::new("Frequency", "ω", value, 1.0..=41.0).show(ui);
+            bottom = ui.cursor().top();
+        });
+        bottom
+    };
+    let before = below(&mut bench);
+    bench.type_text("fast", Key::Tab);
+    assert!(bench.error().is_some());
+    assert_eq!(below(&mut bench), before);
+    let texts = &bench.harness.texts;
+    assert!(texts.iter().any(|(text, seen)| text.contains("is not a number") && *seen > 0.99), "{texts:?}");
+    bench.run(|harness, draw| harness.key(Key::Escape, Modifiers::NONE, draw));
+    assert_eq!(bench.error(), None);
+}
+
+#[test]
 fn a_press_on_the_track_jumps_there() {
     let mut bench = Bench::new(11.0);
     let node = bench.harness.find(Role::Slider, "Frequency");

@@ -13,6 +13,12 @@ use crate::app::widgets::touch;
 /// Height of the drawn track and radius of the thumb, points.
 const TRACK: f32 = 5.0;
 const THUMB: f32 = 8.0;
+/// Parts of the pointer's way that a thumb goes when it is moved finely, and within `NEAR` of a mark, a part of the track.
+const FINE: f64 = 0.1;
+const FINEST: f64 = 0.04;
+const NEAR: f64 = 0.02;
+/// How far from the track a finger moves the thumb finely, points.
+const FAR: f32 = 60.0;
 
 /// What the track reports.
 pub(super) struct Outcome {
@@ -44,8 +50,9 @@ pub(super) fn interact(
     touch::grip(ui, area);
     let response =
         ui.interact(area, id, Sense::drag()).on_hover_and_drag_cursor(egui::CursorIcon::PointingHand);
-    let thumb_x = rail.left() + rail.width() * mapping.fraction(value) as f32;
-    let dragged = dragged_to(ui, &response, rail, thumb_x).map(|fraction| mapping.rounded_value(fraction));
+    let places: Vec<f64> = snaps.iter().map(|mark| mapping.fraction(mark.value)).collect();
+    let dragged = dragged_to(ui, &response, rail, mapping.fraction(value), &places);
+    let dragged = dragged.map(|(fraction, fine)| mapping.rounded_value(fraction, fine));
     let pressed =
         keyboard(ui, &response, value, mapping, snaps).or_else(|| screen_reader(ui, id, value, mapping));
     let new = dragged.or(pressed).filter(|new| *new != value);
@@ -64,25 +71,56 @@ pub(super) fn interact(
     Outcome { response, value: new, released, fraction: mapping.fraction(shown) as f32 }
 }
 
-/// The fraction the pointer asks for. The thumb keeps the offset at which it was grabbed.
-fn dragged_to(ui: &Ui, response: &Response, rail: Rect, thumb_x: f32) -> Option<f64> {
+/// How a thumb is held.
+#[derive(Clone, Copy, Default)]
+struct Grab {
+    /// How far from its middle, points.
+    offset: f32,
+    /// While it moves finely: where the pointer was when that began, or was last, and the thumb then.
+    fine: Option<(f32, f64)>,
+}
+
+/// The fraction the pointer asks for, and whether finely. The thumb keeps the offset at which it was grabbed; with Shift
+/// held, or the finger far from the track, it moves a tenth as far as the pointer, and less about one of the `places`.
+fn dragged_to(ui: &Ui, response: &Response, rail: Rect, now: f64, places: &[f64]) -> Option<(f64, bool)> {
     let pointer = response.interact_pointer_pos()?;
-    let offset_id = response.id.with("grab");
+    let id = response.id.with("grab");
+    let mut grab: Grab = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    let thumb_x = rail.left() + rail.width() * now as f32;
+    let aside = (pointer.y - rail.center().y).abs() > FAR && touch::in_use(ui.ctx());
+    let fine = aside || ui.input(|input| input.modifiers.shift);
     if ui.input(|input| input.pointer.any_pressed()) {
-        let offset = pointer.x - thumb_x;
-        let kept = if offset.abs() <= THUMB { offset } else { 0.0 };
-        ui.data_mut(|data| data.insert_temp(offset_id, kept));
         response.request_focus();
-        if kept != 0.0 {
+        let offset = pointer.x - thumb_x;
+        let held = offset.abs() <= THUMB;
+        grab = Grab { offset: if held { offset } else { 0.0 }, fine: fine.then_some((pointer.x, now)) };
+        ui.data_mut(|data| data.insert_temp(id, grab));
+        if held {
             return None;
         }
+        return Some((f64::from((pointer.x - rail.left()) / rail.width()), false));
     }
     if response.drag_stopped() {
         return None;
     }
-    let offset: f32 = ui.data(|data| data.get_temp(offset_id)).unwrap_or(0.0);
-    let unmoved = (pointer.x - offset - thumb_x).abs() < 0.5;
-    (!unmoved).then(|| f64::from((pointer.x - offset - rail.left()) / rail.width()))
+    let asked = if fine {
+        let (from, place) = grab.fine.unwrap_or((pointer.x, now));
+        let near = places.iter().any(|mark| (place - mark).abs() < NEAR);
+        let part = f64::from((pointer.x - from) / rail.width()) * if near { FINEST } else { FINE };
+        let place = (place + part).clamp(0.0, 1.0);
+        grab.fine = Some((pointer.x, place));
+        (from != pointer.x).then_some((place, true))
+    } else {
+        if grab.fine.take().is_some() {
+            // The thumb goes on from where it is.
+            grab.offset = pointer.x - thumb_x;
+        }
+        let unmoved = (pointer.x - grab.offset - thumb_x).abs() < 0.5;
+        let fraction = f64::from((pointer.x - grab.offset - rail.left()) / rail.width());
+        (!unmoved).then_some((fraction, false))
+    };
+    ui.data_mut(|data| data.insert_temp(id, grab));
+    asked
 }
 
 /// Where the track that has the focus is noted.
@@ -148,7 +186,7 @@ fn screen_reader(ui: &Ui, id: Id, value: f64, mapping: &Mapping) -> Option<f64> 
 /// `value` moved by a part of the track, rounded when that does not swallow the step.
 fn moved(mapping: &Mapping, value: f64, step: f64) -> f64 {
     let fraction = mapping.fraction(value) + step;
-    let rounded = mapping.rounded_value(fraction);
+    let rounded = mapping.rounded_value(fraction, false);
     let resolved = (mapping.fraction(rounded) - fraction).abs() < 0.2 * step.abs();
     if resolved { rounded } else { super::super::number::round_significant(mapping.value(fraction), 6) }
         .clamp(*mapping.range().start(), *mapping.range().end())
