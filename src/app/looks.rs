@@ -1,6 +1,9 @@
-//! What suits the room and the eyes: the theme and the size of type.
+//! What suits the room and the eyes: the theme and the size of type; and views of plots that suit the device.
 
+use super::widgets::plot_style;
 use super::{App, theme};
+use crate::model::Parameter;
+use crate::scenario::Forgotten;
 
 impl App {
     /// Says whether the system asks for high contrast.
@@ -24,5 +27,17 @@ impl App {
         theme::apply(context, theme::Tokens::of(dark, contrast));
         context.set_zoom_factor(if wanted.2 { theme::PROJECTOR_ZOOM } else { 1.0 });
         self.styled = Some(wanted);
+    }
+
+    /// Lets no view of a plot outlast the device that it was chosen for; shaking and load are not the device's.
+    pub(super) fn begin_views(&mut self, context: &egui::Context) {
+        let outer = [Parameter::Omega, Parameter::Beta, Parameter::Kappa];
+        let outer = outer.map(|parameter| Forgotten::Number(parameter, 0.0));
+        let device =
+            self.view.scenario.forgetting(&outer).forgetting(&[Forgotten::Start, Forgotten::Duration]);
+        if self.device.as_ref() != Some(&device) {
+            plot_style::views::another_device(context);
+            self.device = Some(device);
+        }
     }
 }

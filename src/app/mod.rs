@@ -84,6 +84,7 @@ use speech::Speech;
 use view::{Tab, View};
 
 use crate::export::Format;
+use crate::scenario::Scenario;
 
 /// The application.
 pub struct App {
@@ -108,6 +109,8 @@ pub struct App {
     styled: Option<(bool, bool, bool)>,
     /// Whether the system asks for high contrast.
     system_contrast: bool,
+    /// The device that plots showed last.
+    device: Option<Scenario>,
 }
 
 impl App {
@@ -136,6 +139,7 @@ impl App {
             styled: None,
             speech: Speech::default(),
             system_contrast: false,
+            device: None,
         };
         app.style(context);
         app
@@ -217,6 +221,7 @@ impl App {
     pub fn ui(&mut self, ui: &mut Ui) {
         self.style(ui.ctx());
         self.find_words();
+        self.begin_views(ui.ctx());
         widgets::touch::begin_frame(ui.ctx());
         let mut commands = Commands::new();
         let hand = Hand::of(ui.ctx());

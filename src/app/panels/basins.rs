@@ -118,34 +118,29 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &BasinStudy, attractors: 
     let (x, y) = (Axis::new(tr("start"), "q₁"), Axis::new("", "dq₁/dt"));
     let start = start(&context.view.scenario);
     let here = [start[i], start[j]];
-    let shown = plot_style::plot(ui, "basins", &x, &y)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_double_click_reset(false)
-        .show(ui, |plot| {
-            let (x, y) = (x_range, y_range);
-            plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
-            if let Some(picture) = &picture {
-                draw_raster(plot, picture, x, y, opacity);
-                let value = |column, row| {
-                    basin.chart().cell(column, row)?;
-                    attractors.get(basin.shown(column, row)??).map(name)
-                };
-                recorder::cells(plot, tr("motion reached"), size, [x, y], &value);
-            }
-            let places: Vec<(String, PlotPoint)> = attractors
-                .iter()
-                .filter(|attractor| matches!(attractor.cell.motion, Motion::Periodic { .. }))
-                .map(|attractor| {
-                    let place = PlotPoint::new(attractor.start[i], attractor.start[j]);
-                    (say(&attractor.cell.motion), place)
-                })
-                .collect();
-            for (name, place) in &places {
-                plot_style::special_point(plot, name, *place);
-            }
-        });
+    let shown = plot_style::fixed(ui, "basins", &x, &y).show(ui, |plot| {
+        let (x, y) = (x_range, y_range);
+        plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
+        if let Some(picture) = &picture {
+            draw_raster(plot, picture, x, y, opacity);
+            let value = |column, row| {
+                basin.chart().cell(column, row)?;
+                attractors.get(basin.shown(column, row)??).map(name)
+            };
+            recorder::cells(plot, tr("motion reached"), size, [x, y], &value);
+        }
+        let places: Vec<(String, PlotPoint)> = attractors
+            .iter()
+            .filter(|attractor| matches!(attractor.cell.motion, Motion::Periodic { .. }))
+            .map(|attractor| {
+                let place = PlotPoint::new(attractor.start[i], attractor.start[j]);
+                (say(&attractor.cell.motion), place)
+            })
+            .collect();
+        for (name, place) in &places {
+            plot_style::special_point(plot, name, *place);
+        }
+    });
     let drag = plot_style::operating_point(ui, &shown, tr("Start"), here);
     if let Some([q, rate]) = drag.moved {
         context.edit(|scenario| {

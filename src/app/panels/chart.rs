@@ -246,28 +246,23 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let picture = picture(context, ui, context.view.layer);
     let (x, y) = (Axis::new(tr("excitation frequency"), "ω"), Axis::new(tr("excitation amplitude"), "β"));
     let (exact, current) = stability_map::exact_borders(context, boundaries);
-    let shown = plot_style::plot(ui, ("chart", window), &x, &y)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_double_click_reset(false)
-        .show(ui, |plot| {
-            plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
-            if let Some(Picture { cells, omega, beta, opacity }) = &picture {
-                match cells {
-                    Cells::Plain(texture) => draw_raster(plot, texture, *omega, *beta, *opacity),
-                    Cells::Hatched(picture) => picture.draw(plot, *omega, *beta, *opacity),
-                }
-                record(context, plot, [*omega, *beta]);
+    let shown = plot_style::fixed(ui, ("chart", window), &x, &y).show(ui, |plot| {
+        plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
+        if let Some(Picture { cells, omega, beta, opacity }) = &picture {
+            match cells {
+                Cells::Plain(texture) => draw_raster(plot, texture, *omega, *beta, *opacity),
+                Cells::Hatched(picture) => picture.draw(plot, *omega, *beta, *opacity),
             }
-            for tongue in &boundaries.tongues {
-                plot_style::series(plot, Series::Published, tr("published boundary"), &tongue.published);
-                plot_style::series(plot, Series::Coupled, tr("coupled-mode boundary"), &tongue.coupled);
-            }
-            for border in &exact {
-                let kind = if current { Series::Exact } else { Series::Ghost };
-                plot_style::series(plot, kind, tr("exact boundary"), border);
-            }
-        });
+            record(context, plot, [*omega, *beta]);
+        }
+        for tongue in &boundaries.tongues {
+            plot_style::series(plot, Series::Published, tr("published boundary"), &tongue.published);
+            plot_style::series(plot, Series::Coupled, tr("coupled-mode boundary"), &tongue.coupled);
+        }
+        for border in &exact {
+            let kind = if current { Series::Exact } else { Series::Ghost };
+            plot_style::series(plot, kind, tr("Floquet boundary"), border);
+        }
+    });
     drag_point(context, ui, &shown, (low, high), ceiling);
 }

@@ -95,21 +95,20 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
         .flat_map(|curve| &curve.special)
         .map(|point| (say(&point.kind), PlotPoint::new(point.at[0], point.at[1])))
         .collect();
-    let shown = plot_style::plot(ui, ("curves", context.view.plane.map(|parameter| parameter as u8)), &x, &y)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_double_click_reset(false)
-        .show(ui, |plot| {
-            let (low, high) = ([x_side.from, y_side.from], [x_side.to, y_side.to]);
-            plot.set_plot_bounds(PlotBounds::from_min_max(low, high));
-            for (kind, name, line) in &lines {
-                plot_style::series(plot, *kind, name, line);
-            }
-            for (name, place) in &special {
-                plot_style::special_point(plot, name, *place);
-            }
-        });
+    let shown =
+        plot_style::fixed(ui, ("curves", context.view.plane.map(|parameter| parameter as u8)), &x, &y).show(
+            ui,
+            |plot| {
+                let (low, high) = ([x_side.from, y_side.from], [x_side.to, y_side.to]);
+                plot.set_plot_bounds(PlotBounds::from_min_max(low, high));
+                for (kind, name, line) in &lines {
+                    plot_style::series(plot, *kind, name, line);
+                }
+                for (name, place) in &special {
+                    plot_style::special_point(plot, name, *place);
+                }
+            },
+        );
     let parameters = context.view.scenario.parameters;
     let here = [parameters.get(x_side.parameter), parameters.get(y_side.parameter)];
     let drag = plot_style::operating_point(ui, &shown, tr("Operating point in this plane"), here);

@@ -126,25 +126,20 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let here = [0, 1].map(|i| place(i, present.get(sides[i])));
     let best = map.best();
     let id = ("design map", sides.map(|side| side as u8));
-    let shown = plot_style::plot(ui, id, &axes[0], &axes[1])
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_double_click_reset(false)
-        .show(ui, |plot| {
-            plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
-            if let Some(picture) = &picture {
-                picture.draw(plot, x, y, if map.version() == 0 { 0.4 } else { 1.0 });
-                let value = |column, row| map.cell((column, row))?.value.map(number::exact);
-                recorder::cells(plot, mapped(search.aim), map.size(), [x, y], &value);
-            }
-            if let Some((at, evaluation)) = best {
-                let values = map.values(at);
-                let at = egui_plot::PlotPoint::new(place(0, values[0]), place(1, values[1]));
-                let name = evaluation.value.map_or(String::new(), |value| in_digits(value, search.aim));
-                plot_style::special_point(plot, &fill("best: {name}", &[("name", &name)]), at);
-            }
-        });
+    let shown = plot_style::fixed(ui, id, &axes[0], &axes[1]).show(ui, |plot| {
+        plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
+        if let Some(picture) = &picture {
+            picture.draw(plot, x, y, if map.version() == 0 { 0.4 } else { 1.0 });
+            let value = |column, row| map.cell((column, row))?.value.map(number::exact);
+            recorder::cells(plot, mapped(search.aim), map.size(), [x, y], &value);
+        }
+        if let Some((at, evaluation)) = best {
+            let values = map.values(at);
+            let at = egui_plot::PlotPoint::new(place(0, values[0]), place(1, values[1]));
+            let name = evaluation.value.map_or(String::new(), |value| in_digits(value, search.aim));
+            plot_style::special_point(plot, &fill("best: {name}", &[("name", &name)]), at);
+        }
+    });
     let drag = plot_style::operating_point(ui, &shown, tr("Device in view"), here);
     if let Some(moved) = drag.moved {
         let mut device = present;

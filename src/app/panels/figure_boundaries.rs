@@ -38,38 +38,32 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigu
         let (x, y) = (Axis::new(tr("excitation frequency"), "ω"), Axis::new(tr("excitation amplitude"), "β"));
         let tokens = theme::tokens(ui);
         let marked = PlotPoint::new(figure.omega, MARKED_EXCITATION);
-        plot_style::plot(ui, ("figure boundaries", figure.point), &x, &y)
-            .allow_drag(false)
-            .allow_zoom(false)
-            .allow_scroll(false)
-            .show(ui, |plot| {
-                let bounds =
-                    PlotBounds::from_min_max([centre - half, -0.02 * ceiling], [centre + half, ceiling]);
-                plot.set_plot_bounds(bounds);
-                for (index, (alpha, tongue)) in tongues.iter().enumerate() {
-                    let alpha = significant(*alpha, 1);
-                    for (kind, curve) in
-                        [(Series::Coupled, &tongue.coupled), (Series::Published, &tongue.published)]
-                    {
-                        let whose =
-                            if kind == Series::Coupled { tr("coupled modes") } else { tr("as printed") };
-                        let name = format!("α = {alpha}, {whose}");
-                        for pen in pens(index) {
-                            // The style is the paper's and tells the dampings apart, the weight the theories.
-                            let pen = if kind == Series::Coupled { heavy(*pen) } else { *pen };
-                            plot_style::curve(plot, &name, kind.colour(tokens), pen, curve);
-                        }
+        plot_style::fixed(ui, ("figure boundaries", figure.point), &x, &y).show(ui, |plot| {
+            let bounds = PlotBounds::from_min_max([centre - half, -0.02 * ceiling], [centre + half, ceiling]);
+            plot.set_plot_bounds(bounds);
+            for (index, (alpha, tongue)) in tongues.iter().enumerate() {
+                let alpha = significant(*alpha, 1);
+                for (kind, curve) in
+                    [(Series::Coupled, &tongue.coupled), (Series::Published, &tongue.published)]
+                {
+                    let whose = if kind == Series::Coupled { tr("coupled modes") } else { tr("as printed") };
+                    let name = format!("α = {alpha}, {whose}");
+                    for pen in pens(index) {
+                        // The style is the paper's and tells the dampings apart, the weight the theories.
+                        let pen = if kind == Series::Coupled { heavy(*pen) } else { *pen };
+                        plot_style::curve(plot, &name, kind.colour(tokens), pen, curve);
                     }
                 }
-                let point = [figure.omega, MARKED_EXCITATION];
-                plot_style::labelled_place(
-                    plot,
-                    figure.point,
-                    [point[0], point[1] + 0.05 * ceiling],
-                    Series::Numeric,
-                );
-                plot_style::points(plot, Series::Numeric, figure.point, std::slice::from_ref(&marked));
-            });
+            }
+            let point = [figure.omega, MARKED_EXCITATION];
+            plot_style::labelled_place(
+                plot,
+                figure.point,
+                [point[0], point[1] + 0.05 * ceiling],
+                Series::Numeric,
+            );
+            plot_style::points(plot, Series::Numeric, figure.point, std::slice::from_ref(&marked));
+        });
     });
     context.export(title, shown.export);
 }

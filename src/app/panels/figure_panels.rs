@@ -83,18 +83,15 @@ fn history(ui: &mut Ui, figure: &Figure, shown: &Shown, [from, to]: [f64; 2], th
         _ => Vec::new(),
     };
     let (x, y) = (Axis::new(tr("time"), "t"), Axis::new(tr("voltage"), "v").unit("V"));
-    plot_style::plot(ui, ("figure history", figure.number, theory), &x, &y).allow_scroll(false).show(
-        ui,
-        |plot| {
-            plot_style::series(plot, Series::Numeric, tr("computed"), &curve);
-            plot_style::points(plot, Series::Theory, tr("first-order theory"), &dots);
-        },
-    );
+    plot_style::plot(ui, ("figure history", figure.number, theory), &x, &y).show(ui, |plot| {
+        plot_style::series(plot, Series::Numeric, tr("computed"), &curve);
+        plot_style::points(plot, Series::Theory, tr("first-order theory"), &dots);
+    });
 }
 
 fn phase(ui: &mut Ui, figure: &Figure, shown: &Shown) {
     let curves = &shown.curves;
-    phase_plane::plot(ui, ("figure phase", figure.number)).allow_scroll(false).show(ui, |plot| {
+    phase_plane::plot(ui, ("figure phase", figure.number)).show(ui, |plot| {
         plot_style::series(plot, Series::Numeric, tr("computed"), &curves.phase);
         if figure.number != 12 {
             plot_style::points(plot, Series::Theory, tr("first-order theory"), &curves.theory_phase);
@@ -104,14 +101,11 @@ fn phase(ui: &mut Ui, figure: &Figure, shown: &Shown) {
 
 fn strobe(ui: &mut Ui, figure: &Figure, shown: &Shown) {
     let curves = &shown.curves;
-    phase_plane::plot_around(ui, ("figure map", figure.number), curves.extent).allow_scroll(false).show(
-        ui,
-        |plot| {
-            if let Some(point) = &curves.theory_strobe {
-                let place = std::slice::from_ref(point);
-                plot_style::points(plot, Series::TheoryPoint, tr("first-order theory"), place);
-            }
-            plot_style::points(plot, Series::Poincare, tr("computed"), &curves.strobe);
-        },
-    );
+    phase_plane::plot_around(ui, ("figure map", figure.number), curves.extent).show(ui, |plot| {
+        if let Some(point) = &curves.theory_strobe {
+            let place = std::slice::from_ref(point);
+            plot_style::points(plot, Series::TheoryPoint, tr("first-order theory"), place);
+        }
+        plot_style::points(plot, Series::Poincare, tr("computed"), &curves.strobe);
+    });
 }

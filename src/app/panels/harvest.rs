@@ -158,8 +158,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
             _ => {}
         }
     });
-    let clicked = shown.response.clicked().then(|| shown.response.interact_pointer_pos()).flatten();
-    if let Some(at) = clicked {
+    if let Some(at) = context.clicked(&shown) {
         let frequency = shown.transform.value_from_position(at).x.clamp(low, high);
         go_to(context, frequency);
     }

@@ -45,29 +45,24 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     let [x, y] = &traced.axes;
     let length = motion.len().div_ceil(PIECES);
-    plot_style::plot(ui, "live phase portrait", x, y)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_double_click_reset(false)
-        .show(ui, |plot| {
-            plot.set_plot_bounds(PlotBounds::from_min_max([-width, -height], [width, height]));
-            plot_style::points(plot, Series::Ghost, tr("before the last change"), &before);
-            // From the newest backwards; pieces share an end, so that there are no gaps.
-            for piece in 0..PIECES {
-                let end = motion.len().saturating_sub(piece * length);
-                let from = end.saturating_sub(length + 1);
-                let strength = 1.0 - (1.0 - FAINTEST) * piece as f32 / (PIECES - 1) as f32;
-                let colour = tokens.numeric.gamma_multiply(strength * strength);
-                plot_style::curve(plot, tr("motion"), colour, Pen::Line(2.0), &motion[from..end]);
-            }
-            let mut newer = 0;
-            for (until, strength) in AGES {
-                let until = until.min(points.len());
-                let aged = &points[newer.min(until)..until];
-                plot_style::faded_points(plot, Series::Poincare, tr("at phase 0"), aged, strength);
-                newer = until;
-            }
-            plot_style::points(plot, Series::Numeric, tr("now"), &motion[motion.len() - 1..]);
-        });
+    plot_style::fixed(ui, "live phase portrait", x, y).show(ui, |plot| {
+        plot.set_plot_bounds(PlotBounds::from_min_max([-width, -height], [width, height]));
+        plot_style::points(plot, Series::Ghost, tr("before the last change"), &before);
+        // From the newest backwards; pieces share an end, so that there are no gaps.
+        for piece in 0..PIECES {
+            let end = motion.len().saturating_sub(piece * length);
+            let from = end.saturating_sub(length + 1);
+            let strength = 1.0 - (1.0 - FAINTEST) * piece as f32 / (PIECES - 1) as f32;
+            let colour = tokens.numeric.gamma_multiply(strength * strength);
+            plot_style::curve(plot, tr("motion"), colour, Pen::Line(2.0), &motion[from..end]);
+        }
+        let mut newer = 0;
+        for (until, strength) in AGES {
+            let until = until.min(points.len());
+            let aged = &points[newer.min(until)..until];
+            plot_style::faded_points(plot, Series::Poincare, tr("at phase 0"), aged, strength);
+            newer = until;
+        }
+        plot_style::points(plot, Series::Numeric, tr("now"), &motion[motion.len() - 1..]);
+    });
 }

@@ -139,8 +139,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &LoadStudy) {
             plot_style::special_point(plot, &name, place(&optimum));
         }
     });
-    let clicked = shown.response.clicked().then(|| shown.response.interact_pointer_pos()).flatten();
-    if let Some(position) = clicked {
+    if let Some(position) = context.clicked(&shown) {
         let (low, high) = (study.resistances()[0], study.resistances()[study.resistances().len() - 1]);
         use_load(context, x.value(shown.transform.value_from_position(position).x).clamp(low, high));
     }

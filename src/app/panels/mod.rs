@@ -85,6 +85,21 @@ impl<'a> Context<'a> {
         self.commands.push(Command::Design(Box::new(design)));
     }
 
+    /// Where a plot was clicked, for what a click changes. A double click gives the plot its own view, so it takes back
+    /// what its first half has changed.
+    pub(super) fn clicked<R>(&mut self, plot: &egui_plot::PlotResponse<R>) -> Option<egui::Pos2> {
+        let response = &plot.response;
+        let id = response.id.with("before a click");
+        if response.double_clicked() || response.triple_clicked() {
+            let before = response.ctx.data_mut(|data| data.remove_temp(id));
+            self.commands.extend(before.map(Command::Show));
+            return None;
+        }
+        let at = response.clicked().then(|| response.interact_pointer_pos()).flatten()?;
+        response.ctx.data_mut(|data| data.insert_temp(id, Box::new(self.view.scenario.clone())));
+        Some(at)
+    }
+
     /// The newest answer.
     pub(super) fn shown(&self) -> Option<&'a Shown> {
         self.session.shown.as_ref()

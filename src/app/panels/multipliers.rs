@@ -50,15 +50,12 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let farthest = all.map(|place| place.x.hypot(place.y)).fold(1.0, f64::max);
     let reach = 1.18 * farthest.min(4.0);
     let (x, y) = (Axis::new("", "Re μ"), Axis::new("", "Im μ"));
-    plot_style::plot(ui, "multipliers", &x, &y).data_aspect(1.0).allow_drag(false).allow_scroll(false).show(
-        ui,
-        |plot| {
-            plot.set_plot_bounds(PlotBounds::from_min_max([-reach, -reach], [reach, reach]));
-            plot_style::series(plot, Series::Ghost, tr("unit circle"), &circle);
-            plot_style::points(plot, Series::Forced, tr("forced motion"), &forced);
-            plot_style::points(plot, Series::Reached, tr("motion reached"), &reached);
-        },
-    );
+    plot_style::fixed(ui, "multipliers", &x, &y).data_aspect(1.0).show(ui, |plot| {
+        plot.set_plot_bounds(PlotBounds::from_min_max([-reach, -reach], [reach, reach]));
+        plot_style::series(plot, Series::Ghost, tr("unit circle"), &circle);
+        plot_style::points(plot, Series::Forced, tr("forced motion"), &forced);
+        plot_style::points(plot, Series::Reached, tr("motion reached"), &reached);
+    });
 }
 
 fn same(a: &Multipliers, b: Option<&Multipliers>) -> bool {

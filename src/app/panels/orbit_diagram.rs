@@ -107,8 +107,7 @@ pub(super) fn go_where_clicked<R>(
     plot: &egui_plot::PlotResponse<R>,
     study: &SweepStudy,
 ) {
-    let clicked = plot.response.clicked().then(|| plot.response.interact_pointer_pos()).flatten();
-    let Some(at) = clicked else { return };
+    let Some(at) = context.clicked(plot) else { return };
     let (low, high) = study.question().range();
     let value = plot.transform.value_from_position(at).x.clamp(low, high);
     let parameter = study.question().parameter;

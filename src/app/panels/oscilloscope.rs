@@ -84,21 +84,16 @@ fn plot(context: &Context<'_>, ui: &mut Ui, triggered: bool) {
     let [y, _] = &traced.axes;
     let bounds = if triggered { [0.0, width] } else { [-width, 0.0] };
     let tokens = theme::tokens(ui);
-    plot_style::plot(ui, "oscilloscope", &x, y)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_double_click_reset(false)
-        .show(ui, |plot| {
-            plot.set_plot_bounds(PlotBounds::from_min_max([bounds[0], -height], [bounds[1], height]));
-            plot_style::rule(plot, false, "", 0.0, tokens.ruler, Pen::Line(1.0));
-            let faint = tokens.numeric.gamma_multiply(0.4);
-            plot_style::curve(plot, tr("sweep before"), faint, Pen::Line(1.5), &before);
-            plot_style::series(plot, Series::Numeric, y.symbol(), &present);
-            if let Some(head) = present.last().filter(|_| triggered) {
-                plot_style::points(plot, Series::Numeric, y.symbol(), std::slice::from_ref(head));
-            }
-        });
+    plot_style::fixed(ui, "oscilloscope", &x, y).show(ui, |plot| {
+        plot.set_plot_bounds(PlotBounds::from_min_max([bounds[0], -height], [bounds[1], height]));
+        plot_style::rule(plot, false, "", 0.0, tokens.ruler, Pen::Line(1.0));
+        let faint = tokens.numeric.gamma_multiply(0.4);
+        plot_style::curve(plot, tr("sweep before"), faint, Pen::Line(1.5), &before);
+        plot_style::series(plot, Series::Numeric, y.symbol(), &present);
+        if let Some(head) = present.last().filter(|_| triggered) {
+            plot_style::points(plot, Series::Numeric, y.symbol(), std::slice::from_ref(head));
+        }
+    });
 }
 
 /// The time at which the window that began at `turns` did so; by the present period where that is not on record.

@@ -33,8 +33,7 @@ fn portrait(context: &mut Context<'_>, ui: &mut Ui) {
         plot_style::series(plot, Series::Numeric, tr("computed"), &curves.phase);
         plot_style::points(plot, Series::Theory, tr("first-order theory"), &curves.theory_phase);
     });
-    if let Some(at) = response.response.clicked().then(|| response.response.interact_pointer_pos()).flatten()
-    {
+    if let Some(at) = context.clicked(&response) {
         let place = response.transform.value_from_position(at);
         let state = start_at(shown, place.x, place.y);
         context.edit(|scenario| scenario.initial = Some(state));

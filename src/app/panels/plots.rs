@@ -67,3 +67,85 @@ pub(super) fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
         context.commands.push(Command::Enlarge((!large).then_some(panel)));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use egui::{Event, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Role, TouchPhase, vec2};
+
+    use crate::app::rehearsal::Desk;
+
+    fn wheel(desk: &mut Desk, at: Pos2, modifiers: Modifiers) {
+        let (unit, delta, phase) = (MouseWheelUnit::Point, vec2(0.0, -80.0), TouchPhase::Move);
+        let source = MouseWheelSource::Wheel;
+        let turn = Event::MouseWheel { unit, delta, phase, modifiers, source };
+        let events = vec![Event::PointerMoved(at), Event::ModifiersChanged(modifiers), turn];
+        desk.harness.frame(events, |ui| desk.app.ui(ui));
+        for _ in 0..20 {
+            desk.harness.frame(vec![Event::ModifiersChanged(Modifiers::NONE)], |ui| desk.app.ui(ui));
+        }
+    }
+
+    /// Where the view can be fitted.
+    fn fits(desk: &Desk) -> Vec<String> {
+        let buttons = desk.harness.nodes.iter().filter(|node| node.role == Role::Button);
+        buttons.map(|node| node.label.clone()).filter(|label| label.starts_with("Fit the view")).collect()
+    }
+
+    fn middle(desk: &Desk, card: &str) -> Pos2 {
+        let corner = desk.harness.find(Role::Button, &format!("Enlarge: {card}")).bounds;
+        corner.center() + vec2(-150.0, 130.0)
+    }
+
+    #[test]
+    fn the_wheel_scrolls_the_page_and_with_ctrl_it_zooms_what_can_be_fitted_again() {
+        let mut desk = Desk::new(1000.0, 560.0, r#"{"scenario":{"t_end":120.0}}"#);
+        desk.work(8);
+        for card in ["Stability", "Phase portrait", "Time history", "Voltage spectrum"] {
+            let found =
+                desk.harness.nodes.iter().find(|node| node.label.starts_with(&format!("Enlarge: {card}")));
+            let Some(top) = found.map(|node| node.bounds.top()).filter(|top| *top < 400.0) else { continue };
+            let at = middle(&desk, card);
+            wheel(&mut desk, at, Modifiers::NONE);
+            let moved = desk.harness.find(Role::Button, &format!("Enlarge: {card}")).bounds.top() - top;
+            assert!((moved + 80.0).abs() < 1.0, "{card}: {moved}");
+            assert!(fits(&desk).is_empty(), "{card}: {:?}", fits(&desk));
+        }
+        desk.harness.resize(1440.0, 900.0);
+        desk.rest(2);
+        let at = middle(&desk, "Phase portrait");
+        wheel(&mut desk, at, Modifiers::CTRL | Modifiers::COMMAND);
+        assert_eq!(fits(&desk), ["Fit the view: Phase portrait"]);
+        let button = desk.harness.find(Role::Button, "Fit the view").bounds.center();
+        desk.harness.click(button, |ui| desk.app.ui(ui));
+        desk.rest(2);
+        assert!(fits(&desk).is_empty());
+    }
+
+    #[test]
+    fn a_view_is_reset_without_changing_the_device_and_does_not_outlast_it() {
+        let mut desk = Desk::new(1440.0, 900.0, r#"{"scenario":{"t_end":120.0}}"#);
+        desk.work(8);
+        let before = desk.app.view.scenario.clone();
+        let at = middle(&desk, "Phase portrait");
+        let zoom = |desk: &mut Desk| {
+            desk.harness.frame(vec![Event::PointerMoved(at)], |ui| desk.app.ui(ui));
+            desk.harness.frame(vec![Event::Zoom(1.5)], |ui| desk.app.ui(ui));
+            desk.rest(2);
+            assert_eq!(fits(desk).len(), 1);
+        };
+        zoom(&mut desk);
+        desk.harness.click(at, |ui| desk.app.ui(ui));
+        assert!(desk.app.view.scenario.initial.is_some(), "a click starts there");
+        desk.harness.click(at, |ui| desk.app.ui(ui));
+        desk.work(3);
+        assert_eq!(desk.app.view.scenario, before);
+        assert!(fits(&desk).is_empty());
+        zoom(&mut desk);
+        desk.app.load_json(r#"{"parameters":{"omega":9.0}}"#).expect("a scenario");
+        desk.work(3);
+        assert_eq!(fits(&desk).len(), 1, "the same device");
+        desk.app.load_json(r#"{"parameters":{"c0":0.3}}"#).expect("a scenario");
+        desk.work(3);
+        assert!(fits(&desk).is_empty());
+    }
+}

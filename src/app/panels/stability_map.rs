@@ -62,7 +62,7 @@ pub(super) fn boundaries_legend(ui: &mut Ui) {
         &[
             (Series::Published, tr("published")),
             (Series::Coupled, tr("coupled modes")),
-            (Series::Exact, tr("exact (Floquet)")),
+            (Series::Exact, tr("Floquet, this force law")),
         ],
     );
 }
@@ -87,11 +87,7 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let (low, high) = boundaries.range(window);
     let ceiling = ceiling(window, p.beta);
     let (x, y) = (Axis::new(tr("excitation frequency"), "ω"), Axis::new(tr("excitation amplitude"), "β"));
-    let plot = plot_style::plot(ui, ("stability map", window), &x, &y)
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_double_click_reset(false);
+    let plot = plot_style::fixed(ui, ("stability map", window), &x, &y);
     let pinned = context.session.pinned.as_ref().map(|pinned| {
         let p = &pinned.scenario.parameters;
         PlotPoint::new(p.omega, p.beta)
@@ -112,7 +108,7 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         }
         let kind = if current { Series::Exact } else { Series::Ghost };
         for border in &exact {
-            plot_style::series(plot, kind, tr("exact boundary"), border);
+            plot_style::series(plot, kind, tr("Floquet boundary"), border);
         }
         let region = if current { Series::Exact } else { Series::Coupled };
         label_regions(plot, boundaries, window, ceiling, region);

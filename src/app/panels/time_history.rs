@@ -25,7 +25,7 @@ const INSET_FROM: f32 = 190.0;
 
 /// The history.
 pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Explore), |_| tr("Time history"), contents)
-    .hint(|_| tr("scroll to zoom, double click for all").to_owned())
+    .hint(|_| tr("Ctrl + wheel or pinch zooms").to_owned())
     .embedded("time", marked("Time history"));
 
 fn contents(context: &mut Context<'_>, ui: &mut Ui) {
@@ -57,7 +57,6 @@ fn whole(context: &Context<'_>, ui: &mut Ui, shown: &Shown, taken: f64) {
     let response = plot_style::plot(ui, ("time history", taken.to_bits()), &x, &y)
         .allow_zoom([true, false])
         .allow_drag([true, false])
-        .allow_scroll([true, false])
         .include_x(0.0)
         .include_x(end)
         .include_y(1.05 * bottom)
@@ -100,12 +99,8 @@ fn close_view(ui: &mut Ui, rect: Rect, shown: &Shown) {
     let mut inner =
         ui.new_child(UiBuilder::new().max_rect(rect.shrink2(vec2(6.0, 4.0))).id_salt("close view"));
     let (x, y) = (Axis::new("", ""), Axis::new("", ""));
-    plot_style::plot(&inner, "close view", &x, &y)
-        .allow_zoom(false)
-        .allow_drag(false)
-        .allow_scroll(false)
-        .show(&mut inner, |plot| {
-            plot_style::series(plot, Series::Numeric, tr("voltage"), &shown.curves.close);
-            plot_style::points(plot, Series::Theory, tr("first-order theory"), &shown.curves.theory_close);
-        });
+    plot_style::fixed(&inner, "close view", &x, &y).show(&mut inner, |plot| {
+        plot_style::series(plot, Series::Numeric, tr("voltage"), &shown.curves.close);
+        plot_style::points(plot, Series::Theory, tr("first-order theory"), &shown.curves.theory_close);
+    });
 }

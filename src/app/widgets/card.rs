@@ -3,6 +3,7 @@
 use egui::{Align2, Layout, Popup, Rect, Response, Sense, Ui, UiBuilder, pos2, vec2};
 
 use super::icon::{self, BUTTON_SIDE, Icon};
+use super::plot_style::views;
 use super::recorder;
 use crate::app::text::tr;
 use crate::app::{fonts, theme};
@@ -11,6 +12,8 @@ use crate::export::Format;
 /// Height of the title row and inner margin, points.
 const TITLE_ROW: f32 = 34.0;
 const MARGIN: f32 = 12.0;
+/// Number of the button that gives plots their own views again.
+const FIT: usize = usize::MAX;
 
 /// A panel with a title, a quiet hint at the right and icon buttons.
 ///
@@ -80,6 +83,7 @@ impl<'a> Card<'a> {
     /// Draws the card; the contents get the rectangle under the title.
     pub fn show<R>(self, ui: &mut Ui, add_contents: impl FnOnce(&mut Ui) -> R) -> CardResponse<R> {
         recorder::card(ui.ctx(), self.title);
+        views::begin_card(ui.ctx());
         let (rect, background, mut child) = self.begin(ui);
         let inner = add_contents(&mut child);
         let (pressed, export, rect) = self.end(ui, &child, rect, background);
@@ -144,7 +148,10 @@ impl<'a> Card<'a> {
         );
         let mut right = rect.right() - 5.0;
         let (mut pressed, mut export) = (None, None);
-        for (index, (icon, label)) in self.buttons.iter().enumerate().rev() {
+        let fit = views::changed(ui.ctx()).then(|| (Icon::Reset, tr("Fit the view")));
+        for (index, (icon, label)) in
+            self.buttons.iter().enumerate().rev().chain(fit.iter().map(|fit| (FIT, fit)))
+        {
             let place = Rect::from_center_size(
                 pos2(right - 0.5 * BUTTON_SIDE, middle),
                 egui::Vec2::splat(BUTTON_SIDE),
@@ -160,6 +167,8 @@ impl<'a> Card<'a> {
                         }
                     }
                 });
+            } else if response.clicked() && index == FIT {
+                views::fit(ui.ctx());
             } else if response.clicked() {
                 pressed = Some(*icon);
             }

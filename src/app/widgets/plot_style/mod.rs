@@ -4,6 +4,7 @@
 
 mod items;
 mod marker;
+pub mod views;
 
 use std::ops::RangeInclusive;
 
@@ -23,7 +24,8 @@ pub use marker::{PointDrag, no_data, operating_point};
 const LOW: f32 = 190.0;
 
 /// A plot with the app's look: transparent on its card, round ticks, axis names with units, values under the
-/// pointer. Callers add bounds, links and sensitivity before they show it.
+/// pointer. It is dragged, and zoomed by two fingers or the wheel with Ctrl held; the wheel alone is the page's. Callers
+/// add bounds before they show it.
 ///
 /// ```
 /// # use harvester_lab::app::widgets::{Series, plot_style::{self, Axis}};
@@ -34,6 +36,20 @@ const LOW: f32 = 190.0;
 /// # }
 /// ```
 pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> Plot<'a> {
+    let id = ui.make_persistent_id(id);
+    views::begin(ui.ctx(), id, look(ui, id, x, y).allow_scroll(false))
+}
+
+/// The same with one view, which nobody changes.
+pub fn fixed<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> Plot<'a> {
+    look(ui, ui.make_persistent_id(id), x, y)
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_double_click_reset(false)
+}
+
+fn look<'a>(ui: &egui::Ui, id: egui::Id, x: &Axis, y: &Axis) -> Plot<'a> {
     recorder::begin(ui.ctx(), x, y);
     let tokens = theme::tokens(ui);
     // Where the plot is lower than the name of its axis is long, the symbol has to do.
@@ -55,6 +71,7 @@ pub fn plot<'a>(ui: &egui::Ui, id: impl egui::AsIdSalt, x: &Axis, y: &Axis) -> P
     let (x_spacer, y_spacer) = (x.clone(), y.clone());
     let (x_readout, y_readout) = (x.clone(), y.clone());
     Plot::new(id)
+        .id(id)
         // Not for the keyboard: what is in it to be pointed at has a control of its own.
         .sense(if touch::in_use(ui.ctx()) {
             egui::Sense::CLICK
