@@ -13,7 +13,7 @@ use crate::app::widgets::{Card, Icon};
 /// The verdict and the plots of the place in view.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
-    ui.add_space(GAP);
+    ui.add_space(GAP - ui.spacing().item_spacing.y);
     cards(context, ui);
 }
 

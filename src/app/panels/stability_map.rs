@@ -45,6 +45,7 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.y = 2.0;
         choose_window(context, ui);
         ui.add_space(6.0);
         if ui.available_size_before_wrap().x < LEGEND {
@@ -52,7 +53,6 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         }
         boundaries_legend(ui);
     });
-    ui.add_space(4.0);
 }
 
 /// The three theories' lines.

@@ -25,7 +25,7 @@ const WIDEST: f32 = 980.0;
 /// Draws the tab.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     verdict::show(context, ui);
-    ui.add_space(grid::GAP);
+    ui.add_space(grid::GAP - ui.spacing().item_spacing.y);
     choices(context, ui);
     ui.add_space(grid::GAP);
     plots::cards(context, ui);

@@ -87,6 +87,9 @@ fn contents(context: &Context<'_>, ui: &mut Ui) -> Color32 {
     let (mut first, mut second, mut rest) =
         (LayoutJob::default(), LayoutJob::default(), LayoutJob::default());
     let mut colour = tokens.ok;
+    let id = ui.make_persistent_id("details of the verdict");
+    let mut fold = CollapsingState::load_with_default_open(ui.ctx(), id, false);
+    let open = fold.is_open();
     if let Status::Failed(message) = context.session.status() {
         colour = tokens.danger;
         let text = fill("{message}. The last good state stays on the screen.", &[("message", &message)]);
@@ -101,27 +104,33 @@ fn contents(context: &Context<'_>, ui: &mut Ui) -> Color32 {
             Tone::Plain => tokens.ok,
         };
         first.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
-        first.append(&reading.plain, 10.0, body(tokens.text));
+        first.append(&format!("  {}", reading.plain), 2.0, body(tokens.text));
         second.append(&in_a_line(&reading.facts), 0.0, body(tokens.text));
         for text in broken(context, shown, verdict) {
-            let text = SEPARATOR.to_owned() + &fill("beyond a limit: {text}", &[("text", &text)]);
-            second.append(&text, 0.0, body(tokens.danger));
+            let text = fill("beyond a limit: {text}", &[("text", &text)]);
+            add(&mut second, &text, body(tokens.danger));
         }
-        let warnings = reading.warnings.iter().map(|text| SEPARATOR.to_owned() + text);
-        warnings.for_each(|text| second.append(&text, 0.0, body(tokens.warning)));
-        rest.append(&in_a_line(&reading.remarks), 0.0, small(tokens.text_weak));
+        for text in &reading.warnings {
+            if open {
+                // Whole, where there is room for all of them.
+                add(&mut rest, text, small(tokens.warning));
+            } else {
+                add(&mut second, text, body(tokens.warning));
+            }
+        }
+        for text in &reading.remarks {
+            add(&mut rest, text, small(tokens.text_weak));
+        }
     }
-    let id = ui.make_persistent_id("details of the verdict");
-    let mut fold = CollapsingState::load_with_default_open(ui.ctx(), id, false);
     let top = ui.cursor().min;
     let right = top.x + ui.available_width();
     let place = egui::Rect::from_min_size(pos2(right - BUTTON_SIDE, top.y - 1.0), Vec2::splat(BUTTON_SIDE));
     paragraph(ui, first, rows.headline, theme::size::HEADING, right - BUTTON_SIDE - 8.0 - top.x);
     paragraph(ui, second, rows.facts, theme::size::BODY, right - top.x);
-    if fold.is_open() {
+    if open {
         details(ui, rest, rows.details);
     }
-    let (icon, label) = if fold.is_open() {
+    let (icon, label) = if open {
         (Icon::ChevronDown, tr("Hide the details"))
     } else {
         (Icon::ChevronRight, tr("Show the details"))
@@ -132,6 +141,12 @@ fn contents(context: &Context<'_>, ui: &mut Ui) -> Color32 {
     }
     fold.store(ui.ctx());
     colour
+}
+
+/// Adds a text of its own colour to others of a line.
+fn add(line: &mut LayoutJob, text: &str, format: TextFormat) {
+    let before = if line.is_empty() { "" } else { SEPARATOR };
+    line.append(&(before.to_owned() + &in_a_line(&[text.to_owned()])), 0.0, format);
 }
 
 /// Height of so many rows of a text of this size.
@@ -147,7 +162,7 @@ fn paragraph(ui: &mut Ui, mut job: LayoutJob, rows: usize, size: f32, width: f32
     let galley = ui.painter().layout_job(job);
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, galley.text()));
-    let place = Align2::LEFT_CENTER.align_size_within_rect(galley.size(), rect);
+    let place = Align2::LEFT_TOP.align_size_within_rect(galley.size(), rect);
     ui.painter().galley(place.min, galley.clone(), Color32::PLACEHOLDER);
     if galley.elided {
         response.on_hover_text(galley.text());
