@@ -69,7 +69,9 @@ pub(in crate::app) fn window(view: &View, session: &Session) -> (f64, f64) {
     let reach = omega * (view.scenario.parameters.beta / most).sqrt();
     let minimum = if shaking(view) == Shaking::Acceleration { minimum.max(reach) } else { minimum };
     let low = low.clamp(minimum, maximum * (1.0 - LEAST_WINDOW));
-    (low, high.clamp(low * (1.0 + LEAST_WINDOW), maximum))
+    // Rounded, so that a window that is kept in Hz asks the same question.
+    let ends = [low, high.clamp(low * (1.0 + LEAST_WINDOW), maximum)];
+    ends.map(|end| round_significant(end, 10)).into()
 }
 
 /// The curves over frequency.

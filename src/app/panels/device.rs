@@ -14,6 +14,7 @@ use crate::app::command::Command;
 use crate::app::text::{fill, tr};
 use crate::app::view::{Tab, View};
 use crate::app::widgets::chips;
+use crate::app::widgets::number::prefix;
 use crate::app::{bench, theme};
 use crate::model::{Device, Dimension, ElectricalScaling};
 
@@ -35,14 +36,25 @@ pub(super) fn choose_units(context: &mut Context<'_>, ui: &mut Ui) {
     ui.add_space(6.0);
 }
 
+/// The unit in which a dimension of this value is read, and how many of them one of its SI unit is. Loads go over many
+/// powers of ten, each with a unit of its own.
+fn shown(dimension: Dimension, value: f64) -> (&'static str, f64) {
+    let usual = dimension.fact().shown;
+    match (dimension, prefix(value)) {
+        (Dimension::Resistance, (factor, "k")) => ("kΩ", factor),
+        (Dimension::Resistance, (factor, "")) => ("Ω", factor),
+        _ => usual,
+    }
+}
+
 /// One compact slider for a dimension; its range is the usual one, widened to the present value.
 fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension, scaling: ElectricalScaling) -> bool {
     let fact = dimension.fact();
-    let (unit, factor) = fact.shown;
     let present = device.get(dimension);
+    let (unit, factor) = shown(dimension, present);
     let mut value = facts::round(factor * if present.is_finite() { present } else { fact.usual.1 });
     let default = facts::round(factor * Device::default().get(dimension));
-    let slider = facts::slider(fact, &mut value).default_value(default).unit(scaling.unit(unit));
+    let slider = facts::slider_in(fact, factor, &mut value).default_value(default).unit(scaling.unit(unit));
     let changed = slider.compact().show(ui).changed;
     if changed {
         *device.get_mut(dimension) = value / factor;

@@ -8,7 +8,12 @@ use crate::model::{Fact, Parameter, ParameterSet, Scale};
 
 /// A slider over the usual values of a number, widened to the present one; `value` counts in the unit that people read.
 pub(super) fn slider<'a>(fact: &'static Fact, value: &'a mut f64) -> ParameterSlider<'a> {
-    let (low, high) = usual(fact);
+    slider_in(fact, fact.shown.1, value)
+}
+
+/// The same where `value` counts in a unit of which one of the number's own is so many.
+pub(super) fn slider_in<'a>(fact: &'static Fact, factor: f64, value: &'a mut f64) -> ParameterSlider<'a> {
+    let (low, high) = (round(factor * fact.usual.0), round(factor * fact.usual.1));
     let (low, high) = (low.min(*value), high.max(*value));
     let slider = ParameterSlider::new(tr(fact.name), fact.base(), value, low..=high);
     spread(slider, fact, low).tooltip(tr(fact.explanation))

@@ -1,21 +1,33 @@
 //! Going to another frequency or load, as a click on a curve or a recommendation asks.
 
+use crate::app::bench::questions;
 use crate::app::command::Command;
 use crate::app::panels::Context;
+use crate::app::view::View;
 use crate::app::widgets::number::round_significant;
 
 /// Goes to a frequency (Hz), at the acceleration or the amplitude that is held.
 pub(in crate::app::panels) fn go_to(context: &mut Context<'_>, frequency: f64) {
-    let holds = context.view.design.holds_acceleration;
-    context.edit(|scenario| {
-        let units = scenario.units();
-        let p = &mut scenario.parameters;
-        let omega = round_significant(units.omega(frequency), 5);
-        if holds {
-            p.beta *= (p.omega / omega).powi(2);
-        }
-        p.omega = omega;
-    });
+    let mut view = context.view.clone();
+    let units = view.scenario.units();
+    let p = &mut view.scenario.parameters;
+    let omega = round_significant(units.omega(frequency), 5);
+    if view.design.holds_acceleration {
+        p.beta *= (p.omega / omega).powi(2);
+    }
+    p.omega = omega;
+    keep_window(context, &view);
+    context.commands.push(Command::Show(Box::new(view.scenario)));
+}
+
+/// Keeps the curves' window as it is where it would follow the frequency to that of `view`.
+fn keep_window(context: &mut Context<'_>, view: &View) {
+    let [before, after] = [context.view, view].map(|view| questions::window(view, context.session));
+    let same = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
+    if !same(before.0, after.0) || !same(before.1, after.1) {
+        let hertz = |omega| round_significant(view.scenario.units().hertz(omega), 12);
+        context.redesign(|design| design.window = Some((hertz(before.0), hertz(before.1))));
+    }
 }
 
 /// Makes `resistance` (ohm) the load.

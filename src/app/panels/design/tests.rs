@@ -2,6 +2,7 @@
 
 use egui::Role;
 
+use crate::app::bench::questions;
 use crate::app::rehearsal::Desk;
 use crate::app::widgets::harness::Node;
 
@@ -94,4 +95,43 @@ fn before_there_is_a_file_the_run_in_view_can_stand_for_one() {
     assert!((volts - state[run.system.dimension() - 1]).abs() < 1e-9, "{volts} V");
     desk.harness.find(Role::Label, "4001 rows read");
     desk.harness.find(Role::Label, "what is left between them: ");
+}
+
+#[test]
+fn a_click_on_a_frequency_keeps_the_window() {
+    let stored = r#"{"scenario":{"parameters":{"omega":15,"beta":1e-4},"t_end":100},"tab":"design"}"#;
+    let mut desk = Desk::new(1440.0, 900.0, stored);
+    let window = |desk: &Desk| questions::window(&desk.app.view, &desk.app.session);
+    for _ in 0..200 {
+        desk.work(1);
+    }
+    let (before, asked) = (window(&desk), questions::harvest(&desk.app.view, &desk.app.session));
+    let corner = desk.harness.find(Role::Button, "Enlarge: Over frequency").bounds;
+    let at = egui::pos2(corner.right() - 20.0, corner.bottom() + 150.0);
+    let Desk { app, harness } = &mut desk;
+    harness.click(at, |ui| app.ui(ui));
+    desk.work(2);
+    assert!(desk.app.view.scenario.parameters.omega > 17.0, "{}", desk.app.view.scenario.parameters.omega);
+    assert_eq!(window(&desk), before);
+    assert_eq!(questions::harvest(&desk.app.view, &desk.app.session), asked);
+}
+
+#[test]
+fn a_load_is_read_in_the_unit_that_suits_it() {
+    let mut desk = Desk::new(1440.0, 2000.0, r#"{"tab":"design"}"#);
+    desk.work(3);
+    let shown = |desk: &Desk, text: &str| desk.harness.texts.iter().any(|(shown, _)| shown == text);
+    assert!(desk.harness.texts.iter().any(|(text, _)| text.ends_with(" MΩ")));
+    let preset = desk.harness.find(Role::Button, "60 mm steel beam").bounds.center();
+    let Desk { app, harness } = &mut desk;
+    harness.click(preset, |ui| app.ui(ui));
+    desk.work(2);
+    assert!(shown(&desk, "18.0 kΩ"), "{:?}", desk.harness.texts);
+    let field = desk.harness.find(Role::TextInput, "Load value").bounds.center();
+    let Desk { app, harness } = &mut desk;
+    harness.click(field, |ui| app.ui(ui));
+    harness.text("30.39 kOhm", |ui| app.ui(ui));
+    harness.key(egui::Key::Enter, egui::Modifiers::NONE, |ui| app.ui(ui));
+    desk.work(2);
+    assert!(shown(&desk, "30.39 kΩ"), "{:?}", desk.harness.texts);
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use egui::{RichText, Ui};
 
-use super::{adopt, choose_units, device_of};
+use super::{adopt, choose_units, device_of, presets};
 use crate::app::panels::facts::round;
 use crate::app::panels::frequency::resonance_marks;
 use crate::app::panels::{Context, facts};
@@ -21,6 +21,7 @@ const LEAST_ACCELERATION: f64 = 1e-3;
 /// Frequency and base motion.
 pub(in crate::app::panels) fn excitation(context: &mut Context<'_>, ui: &mut Ui) {
     choose_units(context, ui);
+    presets::buttons(context, ui);
     let Some(device) = device_of(context, ui) else { return };
     let mut changed = device;
     let scenario = &context.view.scenario;

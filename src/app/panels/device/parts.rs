@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::{adopt, device_of, presets, slider};
+use super::{adopt, device_of, slider};
 use crate::app::panels::Context;
 use crate::app::panels::structure::model_and_start;
 use crate::app::text::tr;
@@ -31,7 +31,6 @@ pub(in crate::app::panels) fn structure(context: &mut Context<'_>, ui: &mut Ui) 
     if changed != scenario {
         context.edit(|scenario| *scenario = changed);
     }
-    presets::buttons(context, ui);
 }
 
 fn sliders(ui: &mut Ui, device: &mut Device, parts: &[Part], scaling: ElectricalScaling) {

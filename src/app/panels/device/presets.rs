@@ -36,10 +36,10 @@ const STEEL_BEAM: Device = Device {
 
 /// The buttons.
 pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
-    ui.add_space(4.0);
     let mut taken = None;
     ui.horizontal_wrapped(|ui| {
-        if ui.button(tr("Table 1: the paper's device")).clicked() {
+        let small = |text: &str| egui::RichText::new(text.to_owned()).small();
+        if ui.button(small(tr("Table 1: the paper's device"))).clicked() {
             // It keeps its excitation.
             let own = context.view.scenario.parameters;
             let mut scenario = context.view.scenario.clone();
@@ -51,12 +51,13 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
                 scenario
             }));
         }
-        if ui.button(tr("60 mm steel beam")).clicked() {
+        if ui.button(small(tr("60 mm steel beam"))).clicked() {
             let mut scenario = context.view.scenario.clone();
             scenario.model.residual_moment = true;
             taken = Some(scenario.set_device(STEEL_BEAM, ElectricalScaling::Consistent).map(|()| scenario));
         }
     });
+    ui.add_space(6.0);
     if let Some(taken) = taken {
         context.commands.push(Command::Adopt(taken.map(Box::new).map_err(Sentence::from)));
     }
