@@ -20,6 +20,7 @@ mod page;
 mod server;
 mod share;
 mod stability;
+mod wheel;
 
 use std::{collections::BTreeSet, env, fs, io::Write as _, thread::sleep, time::Duration};
 
