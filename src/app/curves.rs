@@ -123,14 +123,19 @@ impl Curves {
             self.strobe = convert(&points[split..]);
         } else {
             self.strobe = convert(points);
+            // The last ones are of a tip that is out of sight.
+            let [width, height] = self.extent;
+            self.strobe.retain(|point| point.x.abs() <= width && point.y.abs() <= height);
         }
     }
 
     fn take_envelope(&mut self, run: &Run) {
         let envelope = &run.envelope;
+        let early = run.outcome() != Outcome::Completed;
         for (i, (low, high)) in envelope.slices.iter().enumerate() {
             let time = (i as f64 + 0.5) * envelope.width;
-            if low.is_finite() && time <= self.end {
+            let reaches = if early { time + 0.5 * envelope.width } else { time };
+            if low.is_finite() && reaches <= self.end {
                 self.envelope[0].push(time);
                 self.envelope[1].push(*low);
                 self.envelope[2].push(*high);
@@ -182,4 +187,28 @@ pub(super) fn beam(shapes: &[Vec<f64>], state: &[f64]) -> Vec<[f64; 2]> {
         .enumerate()
         .map(|(i, x)| [x, shapes.iter().zip(state).map(|(shape, q)| shape[i] * q).sum()])
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Outcome;
+    use crate::app::rehearsal::Desk;
+
+    #[test]
+    fn after_an_escape_axes_show_the_motion() {
+        for (omega, beta) in [(4.0, 0.02), (25.0, 0.05), (15.0, 0.1), (2.0, 0.2), (8.0969, 0.02)] {
+            let stored = format!(
+                r#"{{"scenario":{{"parameters":{{"omega":{omega},"beta":{beta}}},"model":{{"force":"quadratic"}}}}}}"#
+            );
+            let mut desk = Desk::new(1000.0, 700.0, &stored);
+            desk.work(4);
+            let shown = desk.app.session.shown.as_ref().expect("a run");
+            assert!(matches!(shown.run.outcome(), Outcome::Escaped { .. }), "{omega} {beta}");
+            let curves = &shown.curves;
+            let highest = curves.envelope[1..].iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
+            let strobe = curves.strobe.iter().fold(0.0, |most: f64, point| most.max(point.x.abs()));
+            assert!(curves.extent[0] < 400.0, "{omega} {beta}: {:?}", curves.extent);
+            assert!(highest <= 1.01 * curves.extent[0] && strobe <= curves.extent[0], "{highest} {strobe}");
+        }
+    }
 }

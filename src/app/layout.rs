@@ -23,6 +23,7 @@ pub(super) fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui)
     let bar = egui::Frame::new().fill(tokens.bar).inner_margin(Margin::symmetric(14, 7));
     top_panel(ui, "bar", bar, |ui| panels::top_bar::show(context, ui));
     let page = egui::Frame::new().fill(tokens.page);
+    let tab = context.view.tab;
     if let Some(message) = notice {
         let frame = page.inner_margin(Margin { left: 14, right: 14, top: 8, bottom: 0 });
         top_panel(ui, "notice", frame, |ui| draw_notice(context, ui, message));
@@ -31,9 +32,9 @@ pub(super) fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui)
     if ui.available_width() < STACKED {
         let page = page.inner_margin(Margin { left: 12, right: 0, top: 10, bottom: 10 });
         egui::CentralPanel::default().frame(page).show(ui, |ui| {
-            scrolled(ui, |ui| {
+            scrolled(ui, Some(tab), |ui| {
                 // A list to choose from needs no sliders above it.
-                if context.view.tab == Tab::Lessons {
+                if tab == Tab::Lessons {
                     return draw_tab(context, ui);
                 }
                 panels::controls::above(context, ui);
@@ -53,10 +54,12 @@ pub(super) fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui)
         .resizable(false)
         .exact_size(if context.view.tab == Tab::Design { WIDE_COLUMN } else { COLUMN })
         .show(ui, |ui| {
-            scrolled(ui, |ui| panels::controls::show(context, ui));
+            scrolled(ui, None, |ui| panels::controls::show(context, ui));
         });
     let page = page.inner_margin(Margin { left: 10, right: 0, top: 10, bottom: 10 });
-    egui::CentralPanel::default().frame(page).show(ui, |ui| scrolled(ui, |ui| draw_tab(context, ui)));
+    egui::CentralPanel::default()
+        .frame(page)
+        .show(ui, |ui| scrolled(ui, Some(tab), |ui| draw_tab(context, ui)));
 }
 
 /// A panel as high as its contents.
@@ -74,9 +77,15 @@ fn top_panel(ui: &mut Ui, name: &'static str, frame: egui::Frame, contents: impl
     ui.data_mut(|data| data.insert_temp(id, height));
 }
 
-/// Contents that scroll when they are too tall, with a margin at the right in which the scroll bar floats.
-fn scrolled(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
-    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+/// Contents that scroll when they are too tall, with a margin at the right in which the scroll bar floats. Those of
+/// another `tab` than before begin at their top.
+fn scrolled(ui: &mut Ui, tab: Option<Tab>, contents: impl FnOnce(&mut Ui)) {
+    let mut area = egui::ScrollArea::vertical().auto_shrink(false);
+    let id = ui.scope_id().with("tab");
+    if ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(id, tab), tab)) != tab {
+        area = area.vertical_scroll_offset(0.0);
+    }
+    area.show(ui, |ui| {
         let margin = Margin { right: 12, ..Margin::ZERO };
         egui::Frame::new().inner_margin(margin).show(ui, |ui| {
             keyboard::keep_focus_in_view(ui);
@@ -112,6 +121,36 @@ fn draw_notice(context: &mut Context<'_>, ui: &mut Ui, message: &str) {
 mod tests {
     use crate::app::rehearsal::Desk;
     use crate::app::view::Tab;
+    use crate::app::widgets::harness::Node;
+
+    #[test]
+    fn a_tab_that_is_opened_begins_at_its_top() {
+        for (width, height) in [(1100.0, 600.0), (360.0, 900.0)] {
+            let mut desk = Desk::new(width, height, r#"{"scenario":{"t_end":100},"tab":"stability"}"#);
+            desk.work(3);
+            let button = |desk: &Desk| {
+                let found = |node: &&Node| node.label.starts_with("Enlarge: Stability chart");
+                desk.harness.nodes.iter().find(found).map(|node| node.bounds.top())
+            };
+            let top = button(&desk);
+            let at = egui::pos2(width - 100.0, 400.0);
+            let turn = egui::Event::MouseWheel {
+                unit: egui::MouseWheelUnit::Point,
+                delta: egui::vec2(0.0, -150.0),
+                phase: egui::TouchPhase::Move,
+                modifiers: egui::Modifiers::NONE,
+                source: egui::MouseWheelSource::Wheel,
+            };
+            desk.harness.frame(vec![egui::Event::PointerMoved(at), turn], |ui| desk.app.ui(ui));
+            desk.rest(20);
+            assert!(top.is_some() && button(&desk) != top, "{width}: {top:?}");
+            desk.app.view.tab = Tab::Sweep;
+            desk.rest(3);
+            desk.app.view.tab = Tab::Stability;
+            desk.rest(3);
+            assert_eq!(button(&desk), top);
+        }
+    }
 
     #[test]
     fn tabs_stay_in_sight_in_the_first_picture_of_a_narrower_page() {

@@ -50,7 +50,7 @@ fn a_plot_is_saved_as_drawing_picture_and_table_and_all_of_it_as_a_report() {
 
     let table = saved(&mut page, &folder, [menu, "CSV"], "harvester-phase-portrait.csv");
     let table = String::from_utf8(table).expect("a text");
-    for part in ["# omega: 8.0969\n", "\nseries,voltage v [V],dv/dt\n", "\ncomputed,"] {
+    for part in ["# omega: 8.0969\n", "\nseries,voltage v [V],dv/dt [V]\n", "\ncomputed,"] {
         assert!(table.contains(part), "{part}");
     }
     // What lies behind a coloured chart is a table, too.

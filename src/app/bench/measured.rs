@@ -66,14 +66,16 @@ pub(in crate::app) struct File {
 pub(in crate::app) struct Measured {
     /// The file.
     pub file: Option<File>,
-    /// What is wrong with it.
+    /// What is wrong with it, or with one that was opened after it.
     pub error: Option<String>,
+    /// The file before, until this one has been read.
+    before: Option<File>,
 }
 
 impl Measured {
-    /// Opens a file and begins to read its first two columns.
+    /// Opens a file and begins to read its first two columns; the file before stays when nothing can be made of it.
     pub(in crate::app) fn open(&mut self, name: &str, text: Vec<u8>) {
-        *self = Self::default();
+        self.error = None;
         match detect(&text) {
             Err(error) => self.error = Some(format!("{name}: {}", say(&error))),
             Ok(layout) => {
@@ -82,6 +84,7 @@ impl Measured {
                 let y_unit = unit_of(&layout, 1, &[("mv", 1e-3), ("kv", 1e3)]);
                 let columns = Columns { x_unit, y_unit, ..Columns::default() };
                 let reading = Reading { columns, domain, ..Reading::default() };
+                self.before = self.file.take().filter(|file| file.measures.is_some()).or(self.before.take());
                 self.file = Some(File {
                     name: name.to_owned(),
                     text,
@@ -124,6 +127,7 @@ impl Measured {
                 Ok(false) => {}
                 Ok(true) => {
                     file.finish();
+                    self.before = None;
                     return true;
                 }
                 Err(error) => {
@@ -144,6 +148,9 @@ impl Measured {
         if let Some(file) = &mut self.file {
             file.import = None;
             self.error = Some(format!("{}: {}", file.name, say(error)));
+        }
+        if let Some(before) = self.before.take() {
+            self.file = Some(before);
         }
     }
 }
@@ -221,8 +228,24 @@ mod tests {
             "{:?}",
             measured.error
         );
+        // The good one stays.
+        let rows = |measured: &Measured| measured.file.as_ref().map(|file| file.points.len());
+        assert_eq!(rows(&measured), Some(60_000));
+        for (name, bytes) in [
+            ("empty.csv", &b""[..]),
+            ("one.csv", b"t,v\n0,1\n1,2\n2,3\n3,NaN\n4,5\n"),
+            ("old.csv", b"\xff\xfe1\0,\x002\0\n\0"),
+            ("sound.csv", b"RIFF\x24\0\0\0WAVE\n1,2\n"),
+        ] {
+            measured.open(name, bytes.to_vec());
+            while measured.work() {}
+            assert!(measured.error.as_ref().is_some_and(|error| error.starts_with(name)), "{name}");
+            assert_eq!(rows(&measured), Some(60_000), "{name}");
+        }
+        let mut measured = Measured::default();
+        measured.open("first.csv", b"frequency,voltage\n1,2\n2,3\n3,x\n".to_vec());
+        while measured.work() {}
         assert_eq!(measured.file.as_ref().map(|file| file.reading.domain), Some(Domain::Frequency));
-        measured.open("empty.csv", Vec::new());
-        assert!(measured.file.is_none() && measured.error.is_some());
+        assert!(measured.error.is_some());
     }
 }

@@ -245,6 +245,18 @@ fn verbatim(sentence: &Sentence) -> Vec<&str> {
 
 /// One entry of every kind, and whatever else can be wrong with a link.
 #[test]
+fn one_bad_dimension_leaves_the_others() {
+    let good = "beam_length=0.25&tip_mass=0.004&flux_density=0.9&magnet_distance=0.05";
+    let (all, problems) = read(&format!("v=1&{good}"), &View::default());
+    assert!(problems.is_empty(), "{problems:?}");
+    for bad in ["capacitance=-1", "beam_mass=heavy", "youngs_modulus=0", "resistance=1e99", "viscosity=NaN"] {
+        let (view, problems) = read(&format!("v=1&{bad}&{good}"), &View::default());
+        assert_eq!(problems.len(), 1, "{bad}: {problems:?}");
+        assert_eq!(view, all, "{bad}");
+    }
+}
+
+#[test]
 fn what_is_wrong_with_a_link_can_be_translated() {
     let names = "beta modes force initial t_end resistance beam_length repelling ceramic device scaling tab map layer \
         sweep.range sweep.count sweep.dwell.kept sweep.output plane figure enlarged design.page design.least \

@@ -118,7 +118,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &BasinStudy, attractors: 
     let (x, y) = (Axis::new(tr("start"), "q₁"), Axis::new("", "dq₁/dt"));
     let start = start(&context.view.scenario);
     let here = [start[i], start[j]];
-    let shown = plot_style::fixed(ui, "basins", &x, &y).show(ui, |plot| {
+    let shown = plot_style::fixed(ui, "basins", &x, &y).show_grid(false).show(ui, |plot| {
         let (x, y) = (x_range, y_range);
         plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
         if let Some(picture) = &picture {

@@ -246,7 +246,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let picture = picture(context, ui, context.view.layer);
     let (x, y) = (Axis::new(tr("excitation frequency"), "ω"), Axis::new(tr("excitation amplitude"), "β"));
     let (exact, current) = stability_map::exact_borders(context, boundaries);
-    let shown = plot_style::fixed(ui, ("chart", window), &x, &y).show(ui, |plot| {
+    let shown = plot_style::fixed(ui, ("chart", window), &x, &y).show_grid(false).show(ui, |plot| {
         plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, ceiling]));
         if let Some(Picture { cells, omega, beta, opacity }) = &picture {
             match cells {

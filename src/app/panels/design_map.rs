@@ -126,7 +126,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     let here = [0, 1].map(|i| place(i, present.get(sides[i])));
     let best = map.best();
     let id = ("design map", sides.map(|side| side as u8));
-    let shown = plot_style::fixed(ui, id, &axes[0], &axes[1]).show(ui, |plot| {
+    let shown = plot_style::fixed(ui, id, &axes[0], &axes[1]).show_grid(false).show(ui, |plot| {
         plot.set_plot_bounds(PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]));
         if let Some(picture) = &picture {
             picture.draw(plot, x, y, if map.version() == 0 { 0.4 } else { 1.0 });

@@ -11,7 +11,7 @@ const ROOM: f64 = 1.05;
 
 /// A plot with the plane's axes.
 pub(super) fn plot<'a>(ui: &Ui, id: impl egui::AsIdSalt) -> Plot<'a> {
-    plot_style::plot(ui, id, &Axis::new(tr("voltage"), "v").unit("V"), &Axis::new("", "dv/dt"))
+    plot_style::plot(ui, id, &Axis::new(tr("voltage"), "v").unit("V"), &Axis::new("", "dv/dt").unit("V"))
 }
 
 /// The same with bounds that hold a motion of the given extent in both directions, also where less is drawn.

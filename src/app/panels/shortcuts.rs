@@ -11,11 +11,13 @@ use crate::app::{fonts, theme};
 const WIDTH: f32 = 420.0;
 
 /// Keys and what they do.
-const KEYS: [(&str, &str); 20] = [
+const KEYS: [(&str, &str); 22] = [
     (marked("1 2 3 …"), marked("open a tab")),
     (marked("Tab, Shift+Tab"), marked("go to the next or last control")),
     (marked("Enter, Space"), marked("press it")),
     (marked("← →"), marked("move a slider; with Shift in small steps")),
+    (marked("Shift + drag"), marked("move a slider finely")),
+    (marked("Ctrl + wheel"), marked("zoom a plot")),
     (marked("Page Up, Page Down"), marked("move it in large steps")),
     (marked("Ctrl+← →"), marked("go to its next mark")),
     (marked("Home, End"), marked("go to its ends")),

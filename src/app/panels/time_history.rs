@@ -17,7 +17,7 @@ use crate::dynamics::Outcome;
 const DENSE_PERIODS: f64 = 90.0;
 const DENSE_POINTS: usize = 1600;
 /// Share of the card's width and height that the close view takes.
-const INSET: egui::Vec2 = vec2(0.46, 0.42);
+const INSET: egui::Vec2 = vec2(0.46, 0.32);
 /// The same when the card fills the page.
 const INSET_LARGE: egui::Vec2 = vec2(0.42, 0.3);
 /// Height of the card's inside below which there is no room for the close view.
@@ -34,7 +34,7 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
     let inset = area.height() >= INSET_FROM && shown.run.outcome() == Outcome::Completed;
     let large = context.view.enlarged == Some(Panel::TimeHistory);
     let share = if large { INSET_LARGE } else { INSET };
-    let taken = if inset { f64::from(share.y) + 0.09 } else { 0.05 };
+    let taken = if inset { f64::from(share.y) + 0.06 } else { 0.05 };
     whole(context, ui, shown, taken);
     if inset {
         let size = area.size() * share;

@@ -79,7 +79,7 @@ fn visuals(tokens: &Tokens) -> Visuals {
 fn widgets(tokens: &Tokens) -> Widgets {
     let look = |fill: Color32, text: Color32, outline: Color32| WidgetVisuals {
         // That of boxes to tick; buttons have the other one.
-        bg_fill: if tokens.contrast { tokens.track } else { fill },
+        bg_fill: tokens.track,
         weak_bg_fill: fill,
         bg_stroke: Stroke::new(1.0, outline),
         corner_radius: CornerRadius::same(radius::CONTROL),

@@ -32,6 +32,13 @@ impl Page {
         self.browser.perform(&json!({ "actions": [mouse] }));
     }
 
+    /// Moves the mouse to a place.
+    pub(crate) fn hover(&self, (x, y): (f64, f64)) {
+        let moves = json!([{ "type": "pointerMove", "duration": 0, "x": x, "y": y }]);
+        let mouse = json!({ "type": "pointer", "id": "mouse", "actions": moves });
+        self.browser.perform(&json!({ "actions": [mouse] }));
+    }
+
     /// Turns the wheel down over a place, by so many pixels.
     pub(crate) fn wheel(&self, (x, y): (f64, f64), by: i64) {
         let turn = json!({ "type": "scroll", "x": x as i64, "y": y as i64, "deltaX": 0, "deltaY": by, "duration": 50 });

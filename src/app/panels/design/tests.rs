@@ -118,10 +118,10 @@ fn a_click_on_a_frequency_keeps_the_window() {
 
 #[test]
 fn a_load_is_read_in_the_unit_that_suits_it() {
-    let mut desk = Desk::new(1440.0, 2000.0, r#"{"tab":"design"}"#);
+    let mut desk = Desk::new(1440.0, 2000.0, r#"{"scenario":{"t_end":100},"tab":"design"}"#);
     desk.work(3);
     let shown = |desk: &Desk, text: &str| desk.harness.texts.iter().any(|(shown, _)| shown == text);
-    assert!(desk.harness.texts.iter().any(|(text, _)| text.ends_with(" MΩ")));
+    assert!(desk.harness.texts.iter().any(|(text, _)| text.ends_with(" MΩ")), "{:?}", desk.harness.texts);
     let preset = desk.harness.find(Role::Button, "60 mm steel beam").bounds.center();
     let Desk { app, harness } = &mut desk;
     harness.click(preset, |ui| app.ui(ui));

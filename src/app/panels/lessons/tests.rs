@@ -65,3 +65,27 @@ fn every_step_has_its_buttons_on_the_page_and_leaves_room_for_the_plots() {
         }
     }
 }
+
+#[test]
+fn who_has_done_the_last_step_is_offered_the_next_lesson() {
+    let lessons: Vec<LessonId> = LessonId::all().collect();
+    for pair in lessons.windows(2) {
+        let steps = pair[0].lesson().expect("a lesson").steps.len();
+        for (width, height) in [(360.0, 760.0), (1440.0, 900.0)] {
+            let view = format!(r#""lesson":"{}","step":{steps}"#, pair[0]);
+            let mut desk = desk(width, height, &view);
+            desk.work(1);
+            let progress = desk.app.course.note(&desk.app.view);
+            (progress.reached, progress.answer) = (true, Some(0));
+            desk.work(3);
+            let [next, finish] =
+                ["Next lesson", "Finish"].map(|name| desk.harness.find(Role::Button, name).bounds);
+            let page = Rect::from_min_size(pos2(0.0, 0.0), egui::vec2(width, height));
+            assert!(page.contains_rect(next) && !next.intersects(finish), "{} {next:?}", pair[0]);
+            let Desk { app, harness } = &mut desk;
+            harness.click(next.center(), |ui| app.ui(ui));
+            assert_eq!((desk.app.view.lesson, desk.app.view.step), (Some(pair[1]), 1));
+            assert!(desk.app.course.is_finished(pair[0]));
+        }
+    }
+}

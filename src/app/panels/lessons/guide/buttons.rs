@@ -4,6 +4,7 @@ use egui::{Align, Button, Layout, RichText, Ui};
 
 use super::shown::Shown;
 use crate::app::command::Command;
+use crate::app::lessons::LessonId;
 use crate::app::lessons::course::Action;
 use crate::app::panels::Context;
 use crate::app::text::tr;
@@ -53,5 +54,15 @@ pub(super) fn next(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
     };
     if ui.add(button).clicked() {
         context.commands.push(Command::Lesson(action));
+    }
+    let number = context.view.lesson.map_or(0, LessonId::number);
+    let following = LessonId::all().find(|id| id.number() == number + 1);
+    if let Some(id) = following.filter(|_| shown.is_last() && shown.is_done())
+        && ui
+            .button(tr("Next lesson"))
+            .on_hover_text(id.lesson().map_or("", |lesson| lesson.title.get()))
+            .clicked()
+    {
+        context.commands.extend([Action::Finish, Action::Begin(id)].map(Command::Lesson));
     }
 }
