@@ -87,9 +87,18 @@ impl Page {
         page.resize(width, height, theme);
         page.goto();
         // The greeting of a first visit.
-        let past = page.find("Look around", &["Button"]);
-        page.click(past.at(0.5, 0.5));
+        page.pass_greeting();
         page
+    }
+
+    /// Takes the greeting away, which lies over everything, once it stands where it will stay.
+    pub(crate) fn pass_greeting(&mut self) {
+        self.find("Look around", &["Button"]);
+        self.wait("the greeting to go", |page| {
+            let controls = page.controls();
+            let past = controls.iter().find(|control| control.label == "Look around");
+            past.inspect(|past| page.click(past.at(0.5, 0.5))).is_none().then_some(())
+        });
     }
 
     /// Loads the page (again) by its address.

@@ -82,31 +82,12 @@ fn basins_follow_the_hand() {
             "basins of 64 x 64 starts at beta = {beta}: 16 x 16 after {first:.0} ms, all after {whole:.0} ms"
         );
     }
-    // The point is held: every place that it stops at gets its basins, coarse as they are. The page counts those that
-    // have begun since the last ones were drawn.
-    let watch = "window.begun = 0;
-        let drawn = true;
-        setInterval(() => {
-            const entry = JSON.parse(window.harvester.state()).progress.find(([name]) => name === 'basin');
-            const now = !entry || entry[1] >= 0.0624;
-            if (drawn && !now) window.begun += 1;
-            drawn = now;
-        }, 4)";
-    page.script(watch);
-    let begun = |page: &Page| page.script("return window.begun").as_u64().expect("a number");
     let (x, y) = page.find("Operating point", &["Button"]).at(0.5, 0.5);
-    let times = frames_while(&mut page, |page| {
-        page.hold(&[(x, y), (x + 5.0, y)], Duration::from_millis(20));
-        for stop in 1..=4 {
-            let before = begun(page);
-            page.hold_on((x + 10.0 * f64::from(stop), y - 4.0 * f64::from(stop)));
-            page.wait("new basins to begin", |page| (begun(page) > before).then_some(()));
-            page.wait_until("the basins to be drawn", |state| {
-                progress(state, "basin").is_none_or(|done| done >= SKETCH)
-            });
-        }
-        page.release();
-    });
+    let path: Vec<(f64, f64)> = (0..=150)
+        .map(|i| f64::from(i) / 25.0)
+        .map(|t| (x + 40.0 * t.sin(), y - 15.0 * (1.7 * t).sin().abs()))
+        .collect();
+    let times = frames_while(&mut page, |page| page.drag(&path, Duration::from_millis(20)));
     print_frames("while basins follow the hand", &times);
     page.wait_until("the basins to end", |state| progress(state, "basin").is_none());
     page.close();

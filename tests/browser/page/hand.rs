@@ -20,12 +20,6 @@ impl Page {
 
     /// Presses at the first point, moves through the others and lets go at the last.
     pub(crate) fn drag(&self, path: &[(f64, f64)], step: Duration) {
-        self.hold(path, step);
-        self.release();
-    }
-
-    /// The same without letting go at its end.
-    pub(crate) fn hold(&self, path: &[(f64, f64)], step: Duration) {
         let mut moves = Vec::new();
         for (index, &(x, y)) in path.iter().enumerate() {
             moves.push(json!({ "type": "pointerMove", "duration": step.as_millis(), "x": x, "y": y }));
@@ -33,17 +27,8 @@ impl Page {
                 moves.push(json!({ "type": "pointerDown", "button": 0 }));
             }
         }
+        moves.push(json!({ "type": "pointerUp", "button": 0 }));
         self.mouse(moves);
-    }
-
-    /// Goes on with the mouse held down.
-    pub(crate) fn hold_on(&self, (x, y): (f64, f64)) {
-        self.mouse(vec![json!({ "type": "pointerMove", "duration": 100, "x": x, "y": y })]);
-    }
-
-    /// Lets go.
-    pub(crate) fn release(&self) {
-        self.mouse(vec![json!({ "type": "pointerUp", "button": 0 })]);
     }
 
     fn mouse(&self, moves: Vec<Value>) {
