@@ -69,7 +69,7 @@ fn boundaries_and_charts_are_there_soon() {
 
 #[test]
 #[ignore = "needs the built page and Chromium: make test"]
-fn basins_follow_the_hand() {
+fn basins_are_there_soon_and_end_after_the_point_has_moved() {
     let mut page = Page::open(1440, 900, Theme::Dark);
     open_tab(&mut page, "Stability");
     for lane in ["multipliers", "basin"] {

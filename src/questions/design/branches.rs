@@ -8,9 +8,9 @@ use crate::questions::response::{DOUBLINGS, Followed, branches};
 
 /// The forced motion of `plant` for omega (dimensionless) in `window`, and the doubled ones that leave it.
 ///
-/// They are followed, and their changes of stability located, with the loss at the excitation's frequency, on which a branch
-/// depends smoothly; where the voltage of a motion has its largest line elsewhere, that motion is computed again with the loss there. It stays
-/// as it was where it does not exist with that loss, next to a fold.
+/// They are followed, and their changes of stability located, with the loss at the excitation's frequency, on which a
+/// branch depends smoothly; where the voltage of a motion has its largest line elsewhere, that motion is computed again
+/// with the loss there. It stays as it was where it does not exist with that loss, next to a fold.
 ///
 /// # Errors
 /// As [`branches`].

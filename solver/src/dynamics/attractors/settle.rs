@@ -29,7 +29,7 @@ use crate::dynamics::integration::{Collocation, IntegrationError, Measures, Outc
 use crate::dynamics::orbits::newton::Convergence;
 use crate::dynamics::orbits::period_map::MOST_PERIODS;
 use crate::dynamics::orbits::{Instability, Orbit, OrbitSolver, PeriodMap};
-use crate::model::ReducedSystem;
+use crate::model::{ParameterSet, ReducedSystem};
 
 /// Excitation periods before the states are first looked at, between looks at least, and at most.
 const FIRST_LOOK: usize = 24;
@@ -142,9 +142,10 @@ impl Settler {
         let guesses: Vec<_> =
             stable.take(MOST_GUESSES).map(|orbit| (orbit.state.clone(), orbit.periods)).collect();
         let beta = system.parameters.beta;
-        let last = crate::model::ParameterSet { beta, ..*self.system.parameters };
+        let model = |system: &ReducedSystem| (system.modes.len(), system.law, system.residual_moment);
+        let same_set = ParameterSet { beta, ..*self.system.parameters } == *system.parameters;
         // The excitation's amplitude is in no table.
-        if last == *system.parameters && self.system.law == system.law {
+        if same_set && model(&self.system) == model(system) {
             self.integrator.iter_mut().for_each(|integrator| integrator.set_beta(beta));
             self.known.clear();
             self.system = system.clone();
