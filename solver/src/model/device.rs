@@ -131,6 +131,6 @@ impl Device {
         for dimension in Dimension::ALL {
             dimension.check(self.get(dimension))?;
         }
-        Ok(())
+        self.layers.map_or(Ok(()), |layers| layers.check())
     }
 }

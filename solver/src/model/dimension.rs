@@ -1,6 +1,7 @@
 //! A harvester in SI units: its dimensions, a row each, with what a user edits and the coordinates of SI charts need.
 
 use super::fact::{Fact, Part, Scale, numbers};
+use super::layers::Layers;
 use super::materials::Ceramic;
 use super::{ModelError, Parameter};
 
@@ -127,6 +128,9 @@ numbers! {
     }
     + /// The ceramic, where one is chosen; the paper names none for its device.
       ceramic: Option<Ceramic> = None;
+    + /// The layers of the beam, where it is described by them: they decide [`Layers::DECIDED`].
+      #[serde(skip_serializing_if = "Option::is_none")]
+      layers: Option<Layers> = None;
 }
 
 impl Default for Device {

@@ -11,7 +11,8 @@ impl Device {
     ///
     /// Kept are L, E, I, m_b, radius and area of the magnets, mu, g and the ceramic; solved for are Lambda, B, Omega,
     /// H, rho, D, m_t, C_eq, R_eq and Theta. The sign of c0 says whether the magnets repel; without magnets rho is 0
-    /// and `base` keeps its word. No load (kappa = 0) is an infinite resistance.
+    /// and `base` keeps its word. No load (kappa = 0) is an infinite resistance. Layers stay where they still give what
+    /// the device has.
     ///
     /// # Errors
     /// [`ModelError::OutOfRange`] or [`ModelError::NotFinite`] when a dimension comes out that is none, such as a flux
@@ -43,7 +44,7 @@ impl Device {
         };
         device.magnet_distance = set.d * length + device.sag();
         device.check()?;
-        Ok(device)
+        Ok(device.with_layers_that_hold())
     }
 
     /// What [`Self::from_parameters`] keeps of this device; all that it solves for is as in Table 1.
