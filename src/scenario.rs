@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::layers::Laminate;
 use crate::model::{
     Device, ElectricalScaling, MAX_MODES, ModelError, Parameter, ParameterSet, Parameters, ReducedSystem,
     Units, state_dimension,
@@ -93,6 +94,14 @@ impl Scenario {
     /// As [`Device::from_parameters`].
     pub fn device(&self) -> Result<Device, ModelError> {
         Device::from_parameters(&self.base(), &self.parameters, self.scaling)
+    }
+
+    /// What layers decide of the device, where the scenario is about one in SI units.
+    ///
+    /// # Errors
+    /// As [`Self::device`].
+    pub fn laminate(&self) -> Result<Option<Laminate>, ModelError> {
+        self.device.map(|_| self.device().map(|device| device.laminate())).transpose()
     }
 
     /// Makes `device` the scenario's: its dimensionless numbers under `scaling` become the ten numbers.

@@ -22,6 +22,7 @@ use super::sweep::{COUNTS, Direction, Sweep, SweepStudy};
 use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::attractors::sweep::{Dwell, SweepPoint};
 use crate::dynamics::{IntegrationError, Motion, RunError};
+use crate::model::layers::Laminate;
 use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
@@ -72,6 +73,9 @@ pub struct HarvestAnswer {
     /// At its own excitation.
     #[serde(flatten)]
     pub operating: Operating,
+    /// What the layers of the device decide, or else was given for it; absent where the request is about numbers.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub laminate: Option<Laminate>,
     /// Over frequency, at its own amplitude of the base or of its acceleration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curves: Option<Curves>,
@@ -137,8 +141,9 @@ impl Question for Harvest {
         }
         self.limits.validate()?;
         let operating = operating(&scenario)?;
+        let laminate = scenario.laminate()?;
         let curves = self.frequency.map(|frequency| self.curves(scenario, frequency, budget)).transpose()?;
-        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, curves })
+        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, laminate, curves })
     }
 }
 

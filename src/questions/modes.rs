@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::RequestError;
 use super::question::Question;
+use crate::model::layers::Laminate;
 use crate::scenario::Scenario;
 use crate::scheduler::Budget;
 use crate::theory::spectrum;
@@ -15,7 +16,8 @@ const COEFFICIENTS: u32 = 7;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Modes {}
 
-/// Equilibrium, coefficients and modes; one entry a mode in the last four lists. All dimensionless.
+/// Equilibrium, coefficients and modes; one entry a mode in the lists from `omega` to `theta`. All dimensionless but
+/// `device`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModesAnswer {
     /// Displacement of the tip at rest.
@@ -37,6 +39,10 @@ pub struct ModesAnswer {
     pub capacitance: f64,
     /// Eigenvalues (re, im) of the coupled linear system of beam and circuit.
     pub eigenvalues: Vec<[f64; 2]>,
+    /// What the layers of the device decide, or else was given for it, in SI units; absent where the request is about
+    /// numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub device: Option<Laminate>,
 }
 
 impl Question for Modes {
@@ -57,6 +63,7 @@ impl Question for Modes {
             theta: system.theta.clone(),
             capacitance: system.capacitance,
             eigenvalues: eigenvalues.iter().map(|value| [value.re, value.im]).collect(),
+            device: scenario.laminate()?,
         })
     }
 }

@@ -57,7 +57,7 @@ fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension, scaling: Elect
     let slider = facts::slider_in(fact, factor, &mut value).default_value(default).unit(scaling.unit(unit));
     let changed = slider.compact().show(ui).changed;
     if changed {
-        *device.get_mut(dimension) = value / factor;
+        *device = device.with(dimension, value / factor);
     }
     changed
 }

@@ -18,7 +18,7 @@ const TOLERANCE: f64 = 1e-8;
 pub struct Balance {
     /// Power that the shaken base puts in.
     pub input: f64,
-    /// Power lost in the Kelvin-Voigt material.
+    /// Power lost in the Kelvin-Voigt material and to the air.
     pub viscous: f64,
     /// Rate at which the stored energy grew; 0 over a period of a periodic motion.
     pub stored: f64,
