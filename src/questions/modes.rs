@@ -33,6 +33,8 @@ pub struct ModesAnswer {
     pub eta1: Vec<f64>,
     /// Modal masses eta_2n.
     pub eta2: Vec<f64>,
+    /// Damping ratios zeta_n of each mode alone.
+    pub damping_ratio: Vec<f64>,
     /// Couplings theta_n.
     pub theta: Vec<f64>,
     /// Capacitance of the circuit's equation: c, and that of the modes left out where the model counts them.
@@ -60,6 +62,7 @@ impl Question for Modes {
             omega: modes.iter().map(|mode| mode.omega).collect(),
             eta1: modes.iter().map(|mode| mode.eta1).collect(),
             eta2: modes.iter().map(|mode| mode.eta2).collect(),
+            damping_ratio: system.damping_ratios(),
             theta: system.theta.clone(),
             capacitance: system.capacitance,
             eigenvalues: eigenvalues.iter().map(|value| [value.re, value.im]).collect(),

@@ -31,6 +31,8 @@ const MODEL: &str = "model";
 pub(super) const ACCELERATION_UNIT: &str = "peak g of 9.80665 m/s^2";
 /// Relative difference up to which two values of a dimension are the same.
 const SAME: f64 = 1e-6;
+/// Quality factors that a mode can be given.
+const QUALITY: (f64, f64) = (0.5, 1e9);
 /// Accelerations that can be asked for (g).
 const ACCELERATIONS: (f64, f64) = (0.0, 1e6);
 
@@ -63,13 +65,55 @@ pub(super) fn take(fields: &mut Map<String, Value>, takes: &[&str]) -> Result<Sc
     let mut part = |names: &mut dyn Iterator<Item = &&str>| {
         Value::Object(names.filter_map(|name| fields.remove_entry(*name)).collect())
     };
-    let described = part(&mut NAMES.iter());
+    let mut described = part(&mut NAMES.iter());
+    let ratios = damping_ratios(&mut described)?;
     let layered = layered(&described)?;
     let described = Described { device: layered, ..read(&described)? };
     let Looked { model, initial, t_end } = read(&part(&mut [MODEL].iter().chain(takes)))?;
     let mut scenario = Scenario { model, initial, t_end, ..Scenario::default() };
     described.put_into(&mut scenario)?;
+    if let Some(ratios) = ratios {
+        scenario.damp(&ratios)?;
+    }
     Ok(scenario)
+}
+
+/// Takes the damping ratios of the first modes out of a request's device; `None` where none are given.
+///
+/// # Errors
+/// [`RequestError`] naming what is no ratio, or what is given beside them and says the same.
+fn damping_ratios(described: &mut Value) -> Result<Option<Vec<f64>>, RequestError> {
+    const NAMES: [&str; 2] = ["damping_ratio", "quality_factor"];
+    let refused = |name: &str, problem: &str| {
+        Err(RequestError::Field { field: format!("device.{name}"), problem: problem.to_owned() })
+    };
+    let Some(Value::Object(device)) = described.get_mut("device") else { return Ok(None) };
+    let mut given = NAMES.into_iter().filter_map(|name| Some((name, device.remove(name)?)));
+    let (Some((name, value)), more) = (given.next(), given.next()) else { return Ok(None) };
+    if let Some((other, _)) = more {
+        return refused(other, "damping_ratio is given: leave one of the two out");
+    }
+    let beside = |of: &Map<String, Value>, names: [&'static str; 2]| {
+        names.into_iter().find(|name| of.get(*name).is_some_and(|value| !value.is_null()))
+    };
+    if let Some(other) = beside(device, ["viscosity", "air_damping"]) {
+        return refused(other, "the damping of the modes decides it: leave one of the two out");
+    }
+    let parameters = described.get("parameters").and_then(Value::as_object);
+    if let Some(other) = parameters.and_then(|parameters| beside(parameters, ["alpha", "air"])) {
+        return refused(name, &format!("parameters.{other} is given: leave one of the two out"));
+    }
+    let numbers: Vec<f64> = match &value {
+        Value::Number(_) => vec![read(&value).map_err(|error: RequestError| error.of(name))?],
+        _ => read(&value).map_err(|error: RequestError| error.of(&format!("device.{name}")))?,
+    };
+    if name == "damping_ratio" {
+        return Ok(Some(numbers));
+    }
+    for factor in &numbers {
+        ModelError::check("quality_factor", *factor, QUALITY, "")?;
+    }
+    Ok(Some(numbers.into_iter().map(|factor| 0.5 / factor).collect()))
 }
 
 /// The device of a request with what its layers decide.
@@ -171,6 +215,32 @@ mod tests {
         let fed_back = json!({"device": serde_json::to_value(device).expect("plain data")});
         let again = taken(fed_back).expect("the same");
         assert!((again.parameters.theta / scenario.parameters.theta - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn measured_damping_sets_material_and_air() {
+        let damped = |device: Value| taken(json!({"device": device}));
+        let ratios =
+            |scenario: &Scenario| scenario.model.system(scenario.parameters).map(|s| s.damping_ratios());
+        let two = damped(json!({"damping_ratio": [0.01, 0.012], "tip_mass": 0.01})).expect("possible");
+        let found = ratios(&two).expect("a device");
+        assert!((found[0] / 0.01 - 1.0).abs() < 1e-10 && (found[1] / 0.012 - 1.0).abs() < 1e-10, "{found:?}");
+        assert!(two.parameters.air > 0.0 && two.device().expect("a device").air_damping > 0.0);
+        let factors =
+            damped(json!({"quality_factor": [50.0, 1.0 / 0.024], "tip_mass": 0.01})).expect("possible");
+        assert!((factors.parameters.alpha / two.parameters.alpha - 1.0).abs() < 1e-12);
+        let one = damped(json!({"damping_ratio": 0.01})).expect("possible");
+        assert!((ratios(&one).expect("a device")[0] / 0.01 - 1.0).abs() < 1e-12 && one.parameters.air == 0.0);
+        let wrong = |fields: Value| taken(fields).expect_err("refused").to_string();
+        let device = json!({"damping_ratio": [0.01, 0.001], "viscosity": 1e6});
+        assert!(wrong(json!({"device": device})).starts_with("device.viscosity: the damping of the modes"));
+        let impossible = wrong(json!({"device": {"damping_ratio": [0.01, 0.001]}}));
+        assert!(impossible.starts_with("a damping ratio of 0.001 in mode 2 is not possible"), "{impossible}");
+        assert!(wrong(json!({"device": {"damping_ratio": "dry"}})).starts_with("device.damping_ratio: "));
+        assert!(
+            wrong(json!({"device": {"quality_factor": [0]}}))
+                .starts_with("quality_factor = 0 is out of range")
+        );
     }
 
     #[test]

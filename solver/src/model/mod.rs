@@ -2,6 +2,7 @@
 
 mod along;
 pub mod choice;
+pub mod damping;
 pub mod device;
 pub mod dimension;
 pub mod eigenvalues;

@@ -192,7 +192,8 @@ mod tests {
 
     #[test]
     fn a_system_at_other_numbers_is_the_one_made_from_them() -> Result<(), ModelError> {
-        let base = system(3, ForceLaw::Exact);
+        let set = ParameterSet { j: 1e-3, e: 0.02, air: 0.05, ..Default::default() };
+        let base = ReducedSystem::new(Parameters::new(set)?, 3, ForceLaw::Exact)?;
         for parameter in crate::model::Parameter::ALL {
             let mut set = *base.parameters;
             *set.get_mut(parameter) *= 1.1;
@@ -213,7 +214,9 @@ mod tests {
     #[test]
     fn the_jacobian_is_the_derivative_by_finite_differences() {
         for (modes, law) in [(1, ForceLaw::Quadratic), (2, ForceLaw::Exact), (4, ForceLaw::Taylor(4))] {
-            let system = system(modes, law);
+            let set = ParameterSet { j: 1e-3, e: 0.02, air: 0.05, ..Default::default() };
+            let system =
+                ReducedSystem::new(Parameters::new(set).expect("in range"), modes, law).expect("a device");
             let force = system.rest_force();
             let state: Vec<f64> = (0..system.dimension()).map(|i| 0.01 * (1.0 + i as f64).sin()).collect();
             let evaluate = |state: &[f64]| {

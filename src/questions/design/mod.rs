@@ -20,6 +20,7 @@ pub mod peak;
 pub mod plant;
 pub mod point;
 pub mod polish;
+pub mod published;
 pub mod thin;
 pub mod trust;
 

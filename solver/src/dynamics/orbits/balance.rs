@@ -127,13 +127,17 @@ mod tests {
 
     #[test]
     fn every_steady_state_keeps_its_energy() {
-        for (alpha, beta, omega, law, modes) in [
-            (1e-4, 1e-2, 8.0969, ForceLaw::Quadratic, 2),
-            (1e-3, 1e-3, 25.0, ForceLaw::Exact, 4),
-            (1e-3, 1e-3, 4.0, ForceLaw::Taylor(5), 3),
-            (1e-4, 1e-3, 43.0, ForceLaw::Exact, 1),
+        for (alpha, air, beta, omega, law, modes) in [
+            (1e-4, 0.0, 1e-2, 8.0969, ForceLaw::Quadratic, 2),
+            (1e-3, 0.0, 1e-3, 25.0, ForceLaw::Exact, 4),
+            (1e-3, 0.0, 1e-3, 4.0, ForceLaw::Taylor(5), 3),
+            (1e-4, 0.0, 1e-3, 43.0, ForceLaw::Exact, 1),
+            (1e-4, 0.08, 1e-3, 4.0, ForceLaw::Exact, 3),
+            (0.0, 0.2, 1e-3, 8.0, ForceLaw::Quadratic, 2),
         ] {
-            let set = ParameterSet { alpha, beta, omega, ..Default::default() };
+            // A tip that turns where there is air.
+            let (j, e) = if air > 0.0 { (2e-3, 0.03) } else { (0.0, 0.0) };
+            let set = ParameterSet { alpha, beta, omega, air, j, e, ..Default::default() };
             let parameters = Parameters::new(set).expect("in range");
             let system = ReducedSystem::new(parameters, modes, law).expect("a device");
             let orbit = Orbit::find(&system, None, 1).expect("a forced motion");
