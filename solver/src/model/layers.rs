@@ -63,6 +63,12 @@ pub struct Plate {
     pub permittivity: f64,
 }
 
+impl Plate {
+    /// No plate, to be completed.
+    pub const THIN: Self =
+        Self { thickness: 0.0, youngs_modulus: 0.0, density: 0.0, d31: 0.0, permittivity: 0.0 };
+}
+
 /// The section of a beam: a substrate with ceramic on one side or on both, glued or not.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, SerBin, DeBin)]
 #[serde(deny_unknown_fields)]

@@ -13,6 +13,7 @@ use crate::export::number::shortest;
 use crate::model::materials::Ceramic;
 use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Parameter, ParameterSet};
 use crate::questions::chart::Quantity;
+use crate::questions::design::published::BIMORPH;
 use crate::scenario::{ModelChoice, VERSION};
 
 proptest! {
@@ -278,4 +279,25 @@ fn what_is_wrong_with_a_link_can_be_translated() {
         let left = verbatim(&problem.reason);
         assert!(!left.iter().any(|left| *left != given && is_sentence(left)), "{problem}: {left:?}");
     }
+}
+
+#[test]
+fn layers_are_one_entry_of_a_link() {
+    let mut view = View::default();
+    BIMORPH.put_into(&mut view.scenario).expect("a device");
+    let link = write(&view);
+    let layers = "layers=series+0.0318+1.4e-4+105000000000+9000+2.6e-4+66000000000+7800+-1.9e-10+1.328e-8";
+    assert!(link.contains(layers), "{link}");
+    let (read_back, problems) = read(&link, &View::default());
+    assert!(
+        problems.is_empty() && read_back.scenario.device().expect("a device").layers.is_some(),
+        "{problems:?}"
+    );
+    assert_eq!(read_back.scenario, view.scenario);
+    for wrong in ["layers=series", "layers=pile+1+2+3+4+5+6+7+8+9", "layers=series+x+2+3+4+5+6+7+8+9"] {
+        let (view, problems) = read(&format!("v=1&{wrong}"), &View::default());
+        assert!(problems.len() == 1 && view.scenario.device.is_none(), "{wrong}: {problems:?}");
+    }
+    // What is written of no layers is what it was.
+    assert!(!write(&View { scenario: Scenario::default(), ..View::default() }).contains("layers"));
 }

@@ -12,6 +12,7 @@ pub mod plot_style;
 pub mod qr;
 pub mod raster;
 pub mod recorder;
+pub mod section_view;
 pub mod series;
 pub mod swatch;
 pub mod tabs;

@@ -11,8 +11,10 @@ use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, Searc
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
 use crate::app::view::{MapWindow, Output, Panel, SweepView, Tab, View};
 use crate::dynamics::attractors::sweep::Dwell;
+use crate::model::layers::Sheet;
 use crate::model::materials::Ceramic;
-use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet};
+use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Layers, Limits, Parameter, ParameterSet};
+use crate::questions::design::published::{BIMORPH, UNIMORPH};
 use crate::questions::design::trust::Quantity;
 use crate::questions::{chart, curves};
 use crate::scenario::{END_TIME, ModelChoice, Scenario, VERSION};
@@ -46,9 +48,17 @@ fn parameters() -> impl Strategy<Value = ParameterSet> {
 
 fn device() -> impl Strategy<Value = Device> {
     let numbers = Dimension::ALL.map(|dimension| option::of(within(dimension.range())));
-    (numbers, any::<bool>(), any::<bool>(), option::of(select(&Ceramic::ALL[..]))).prop_map(
-        |(numbers, repelling, open, ceramic)| {
-            let mut device = Device { repelling, ceramic, ..Device::default() };
+    let layers = option::of((select(&[UNIMORPH, BIMORPH][..]), option::of(within((1e-6, 1e-3)))));
+    (numbers, any::<bool>(), any::<bool>(), option::of(select(&Ceramic::ALL[..])), layers).prop_map(
+        |(numbers, repelling, open, ceramic, layered)| {
+            let layers = layered.and_then(|(published, glue)| {
+                let layers = published.device().layers?;
+                Some(Layers {
+                    epoxy: glue.map(|thickness| Sheet { thickness, ..layers.substrate }),
+                    ..layers
+                })
+            });
+            let mut device = Device { repelling, ceramic, layers, ..Device::default() };
             for (dimension, number) in Dimension::ALL.into_iter().zip(numbers) {
                 *device.get_mut(dimension) = number.unwrap_or(device.get(dimension));
             }

@@ -6,6 +6,7 @@ mod beside;
 mod best_load;
 pub(super) mod going;
 mod held;
+mod known;
 mod limits;
 mod materials;
 pub(super) mod measure;

@@ -5,7 +5,7 @@ use crate::app::command::Command;
 use crate::app::text::tr;
 use crate::model::materials::Ceramic;
 use crate::model::{Device, ElectricalScaling, Parameter, STANDARD_GRAVITY};
-use crate::questions::design::published::{BIMORPH, PAPER, UNIMORPH};
+use crate::questions::design::published::{BIMORPH, PAPER, Published, UNIMORPH};
 use crate::sentence::Sentence;
 
 /// A steel beam of 60 mm with a ceramic patch and small neodymium magnets, shaken at 0.2 g near its first resonance
@@ -39,12 +39,21 @@ const STEEL_BEAM: Device = Device {
     layers: None,
 };
 
+/// What a published device is called.
+pub(in crate::app::panels) fn name(published: &Published) -> &'static str {
+    match published.name {
+        name if name == UNIMORPH.name => tr("Unimorph, Erturk & Inman 2008"),
+        name if name == BIMORPH.name => tr("Bimorph T226-A4, Erturk & Inman 2009"),
+        _ => tr("Table 1: the paper's device"),
+    }
+}
+
 /// The buttons.
 pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
     let mut taken = None;
     ui.horizontal_wrapped(|ui| {
         let small = |text: &str| egui::RichText::new(text.to_owned()).small();
-        if ui.button(small(tr(PAPER.name))).on_hover_text(PAPER.source).clicked() {
+        if ui.button(small(name(&PAPER))).on_hover_text(PAPER.source).clicked() {
             // It keeps its excitation.
             let own = context.view.scenario.parameters;
             let mut scenario = context.view.scenario.clone();
@@ -57,7 +66,7 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
             }));
         }
         for published in [UNIMORPH, BIMORPH] {
-            if ui.button(small(tr(published.name))).on_hover_text(published.source).clicked() {
+            if ui.button(small(name(&published))).on_hover_text(published.source).clicked() {
                 let mut scenario = context.view.scenario.clone();
                 scenario.model.residual_moment = true;
                 taken = Some(published.put_into(&mut scenario).map(|()| scenario));
