@@ -66,7 +66,7 @@ fn every_field_of_a_view_is_in_links_and_no_other() {
     let lesson = LessonId::named("escape");
     let mut view = View { dark: Some(true), enlarged: Some(Panel::Chart), lesson, ..View::default() };
     view.sweep.range = Some((1.0, 2.0));
-    view.scenario.device = Some(Device { ceramic: Some(Ceramic::Apc850), ..Device::default() });
+    view.scenario.device = Some(Device { ceramic: Some(Ceramic::Apc850), ..BIMORPH.device() });
     view.scenario.scaling = ElectricalScaling::Consistent;
     view.scenario.initial = Some(vec![0.0; 5]);
     view.scenario.model.residual_moment = true;
@@ -75,9 +75,13 @@ fn every_field_of_a_view_is_in_links_and_no_other() {
     leaves(&value, "", &mut paths);
     // The version of a scenario is the version of the link.
     paths.retain(|path| path != "/scenario/version");
+    // Layers are one entry, whatever they hold.
+    const LAYERS: &str = "/scenario/device/layers";
+    paths.iter_mut().filter(|path| path.starts_with(LAYERS)).for_each(|path| LAYERS.clone_into(path));
     let mut known: Vec<String> = fields().into_iter().map(|field| field.pointer).collect();
     known.retain(|pointer| pointer != "/scenario/device");
     paths.sort();
+    paths.dedup();
     known.sort();
     assert_eq!(paths, known, "a field of View is missing in View::complete, or one there is gone");
     let mut names: Vec<String> = fields().into_iter().map(|field| field.name).collect();
@@ -286,7 +290,7 @@ fn layers_are_one_entry_of_a_link() {
     let mut view = View::default();
     BIMORPH.put_into(&mut view.scenario).expect("a device");
     let link = write(&view);
-    let layers = "layers=series+0.0318+1.4e-4+105000000000+9000+2.6e-4+66000000000+7800+-1.9e-10+1.328e-8";
+    let layers = "layers=series+0.0318+0.00014+1.05e11+9000+0.00026+6.6e10+7800+-1.9e-10+1.328e-8";
     assert!(link.contains(layers), "{link}");
     let (read_back, problems) = read(&link, &View::default());
     assert!(

@@ -36,38 +36,39 @@ fn within((low, high): (f64, f64)) -> impl Strategy<Value = f64> {
     prop_oneof![anywhere, small, round, Just(low), Just(high)]
 }
 
-fn parameters() -> impl Strategy<Value = ParameterSet> {
-    Parameter::ALL.map(|parameter| option::of(within(parameter.range()))).prop_map(|numbers| {
+/// Boxed, as the device: the many numbers would overflow the stack of a test.
+fn parameters() -> BoxedStrategy<ParameterSet> {
+    let numbers = Parameter::ALL.map(|parameter| option::of(within(parameter.range()).boxed()).boxed());
+    let set = numbers.prop_map(|numbers| {
         let mut set = ParameterSet::default();
         for (parameter, number) in Parameter::ALL.into_iter().zip(numbers) {
             *set.get_mut(parameter) = number.unwrap_or(set.get(parameter));
         }
         set
-    })
+    });
+    set.boxed()
 }
 
-fn device() -> impl Strategy<Value = Device> {
-    let numbers = Dimension::ALL.map(|dimension| option::of(within(dimension.range())));
+fn device() -> BoxedStrategy<Device> {
+    let numbers = Dimension::ALL.map(|dimension| option::of(within(dimension.range()).boxed()).boxed());
     let layers = option::of((select(&[UNIMORPH, BIMORPH][..]), option::of(within((1e-6, 1e-3)))));
-    (numbers, any::<bool>(), any::<bool>(), option::of(select(&Ceramic::ALL[..])), layers).prop_map(
-        |(numbers, repelling, open, ceramic, layered)| {
-            let layers = layered.and_then(|(published, glue)| {
-                let layers = published.device().layers?;
-                Some(Layers {
-                    epoxy: glue.map(|thickness| Sheet { thickness, ..layers.substrate }),
-                    ..layers
-                })
-            });
-            let mut device = Device { repelling, ceramic, layers, ..Device::default() };
-            for (dimension, number) in Dimension::ALL.into_iter().zip(numbers) {
-                *device.get_mut(dimension) = number.unwrap_or(device.get(dimension));
-            }
-            if open {
-                device.resistance = f64::INFINITY;
-            }
-            device
-        },
-    )
+    let device =
+        (numbers.boxed(), any::<bool>(), any::<bool>(), option::of(select(&Ceramic::ALL[..])), layers);
+    let device = device.prop_map(|(numbers, repelling, open, ceramic, layered)| {
+        let layers = layered.and_then(|(published, glue)| {
+            let layers = published.device().layers?;
+            Some(Layers { epoxy: glue.map(|thickness| Sheet { thickness, ..layers.substrate }), ..layers })
+        });
+        let mut device = Device { repelling, ceramic, layers, ..Device::default() };
+        for (dimension, number) in Dimension::ALL.into_iter().zip(numbers) {
+            *device.get_mut(dimension) = number.unwrap_or(device.get(dimension));
+        }
+        if open {
+            device.resistance = f64::INFINITY;
+        }
+        device
+    });
+    device.boxed()
 }
 
 fn scenario() -> impl Strategy<Value = Scenario> {
