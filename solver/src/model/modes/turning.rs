@@ -47,7 +47,8 @@ fn modes_below(lambda: f64, c1: f64, tip: &Tip) -> usize {
     let clamped = waves.clamped();
     // The roots of cos cosh = 1 lie next to (m + 1/2) pi; at each the sign changes.
     let nearest = (lambda / std::f64::consts::PI - 0.5).round().max(0.0) as usize;
-    let fixed = if (nearest % 2 == 0) == (clamped > 0.0) { nearest } else { nearest.saturating_sub(1) };
+    let fixed =
+        if nearest.is_multiple_of(2) == (clamped > 0.0) { nearest } else { nearest.saturating_sub(1) };
     let determinant = characteristic(&waves, lambda, c1, tip) / clamped;
     let Waves { sin, cos, cosh, sinh, .. } = waves;
     let displacement = lambda.powi(3) * (sin * cosh + cos * sinh) / clamped + c1 - tip.mass * lambda.powi(4);
