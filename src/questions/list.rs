@@ -40,6 +40,7 @@ pub const TASKS: &[Task] = &[
     Task::of::<super::trust::Trust>(),
     Task::of::<super::find::Find>(),
     Task::of::<super::map::Map>(),
+    Task::of::<super::shake::Shake>(),
 ];
 
 /// What workers can do.
@@ -63,6 +64,7 @@ pub const HANDS: &[Hand] = &[
     Hand::of::<Fitted>(),
     Hand::of::<Entry>(),
     Hand::of::<Evaluate>(),
+    Hand::of::<super::shake::ShakenRun>(),
 ];
 
 fn lane<S: Study>(name: &'static str, first: Option<S>) -> (&'static str, Box<dyn Traffic>) {
@@ -94,6 +96,7 @@ pub fn lanes() -> Lanes {
         lane::<Table<Entry>>("trust", None),
         lane::<FindStudy>("find", None),
         lane::<DesignMap>("map", None),
+        lane::<Table<super::shake::ShakenRun>>("shake", None),
     ];
     Lanes::new(lanes, 4)
 }
