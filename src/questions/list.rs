@@ -14,6 +14,7 @@ use super::motion_chart::MotionChart;
 use super::motions::Motions;
 use super::multiplier_chart::{Columns, MultiplierChart};
 use super::request::Task;
+use super::shake::{AtLevel, ShakenRun};
 use super::sweep::{Stretch, SweepStudy};
 use super::tongues::{Border, TongueStudy};
 use super::trust::Entry;
@@ -64,7 +65,8 @@ pub const HANDS: &[Hand] = &[
     Hand::of::<Fitted>(),
     Hand::of::<Entry>(),
     Hand::of::<Evaluate>(),
-    Hand::of::<super::shake::ShakenRun>(),
+    Hand::of::<ShakenRun>(),
+    Hand::of::<AtLevel>(),
 ];
 
 fn lane<S: Study>(name: &'static str, first: Option<S>) -> (&'static str, Box<dyn Traffic>) {
@@ -96,7 +98,8 @@ pub fn lanes() -> Lanes {
         lane::<Table<Entry>>("trust", None),
         lane::<FindStudy>("find", None),
         lane::<DesignMap>("map", None),
-        lane::<Table<super::shake::ShakenRun>>("shake", None),
+        lane::<Table<ShakenRun>>("shake", None),
+        lane::<Table<AtLevel>>("levels", None),
     ];
     Lanes::new(lanes, 4)
 }

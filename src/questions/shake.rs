@@ -46,7 +46,7 @@ pub struct Shake {
 }
 
 /// What was measured under the shaking, in SI units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, SerBin, DeBin)]
 pub struct Harvested {
     /// Root mean square of the voltage (V).
     pub v_rms: f64,
@@ -113,7 +113,6 @@ impl Shake {
         count("realisations", self.realisations, realisations)?;
         count("points", self.points, POINTS)?;
         scenario.validate()?;
-        self.excitation.signal(0)?;
         let scenario = scenario.forgetting(&[Forgotten::Duration]);
         let run = |i: usize| ShakenRun {
             scenario: scenario.clone(),
@@ -167,12 +166,58 @@ impl Question for Shake {
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<ShakeAnswer, RequestError> {
         let mut runs = self.runs(&scenario)?;
+        self.excitation.signal(0)?;
         complete_within(&mut runs, budget);
         let found: Result<Vec<&Found>, &Failure> = runs.found().flatten().collect();
         let found = found.map_err(|failure| RequestError::Study(failure.to_string()))?;
         self.summary(&found).ok_or_else(|| {
             RequestError::Study("the budget was spent before the first run was done".to_owned())
         })
+    }
+}
+
+/// What the device gives at one level of the shaking, and the same without magnets.
+#[derive(Debug, Clone, PartialEq, SerBin, DeBin)]
+pub struct AtLevel {
+    /// The device.
+    pub scenario: Scenario,
+    /// How its base moves.
+    pub excitation: BaseMotion,
+    /// How many times.
+    pub realisations: usize,
+}
+
+/// What was found at a level.
+#[derive(Debug, Clone, PartialEq, SerBin, DeBin)]
+pub struct Level {
+    /// The device; absent where every run ended early.
+    pub own: Option<Harvested>,
+    /// The device without magnets.
+    pub linear: Option<Harvested>,
+    /// How many realisations were completed.
+    pub completed: usize,
+}
+
+impl Piece for AtLevel {
+    const NAME: &'static str = "shake_level";
+    type Found = Level;
+
+    fn carry_out(&self) -> Result<Level, Failure> {
+        let Self { scenario, excitation, realisations } = self.clone();
+        let points = POINTS.0;
+        let run = |i: usize| ShakenRun {
+            scenario: scenario.clone(),
+            excitation: excitation.clone(),
+            realisation: (i / 2) as u64,
+            magnets: i.is_multiple_of(2),
+            points,
+        };
+        let runs: Vec<Found> = (0..2 * realisations).map(|i| run(i).run()).collect::<Result<_, _>>()?;
+        let summary = Shake { excitation: self.excitation.clone(), realisations, points }
+            .summary(&runs.iter().collect::<Vec<_>>());
+        let (own, linear, completed) =
+            summary.map_or((None, None, 0), |found| (found.measured, found.linear, found.completed));
+        Ok(Level { own, linear, completed })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::shake::ShakeView;
 use crate::model::{Dimension, Limits, MAX_MODES, ModelError};
 use crate::questions::design::trust::Quantity;
 use crate::questions::find::GENERATIONS;
@@ -25,6 +26,8 @@ pub enum Page {
     Search,
     /// Measured data over computed curves.
     Measured,
+    /// Shaken by chirps and noise.
+    Shake,
 }
 
 /// What is drawn over frequency.
@@ -152,6 +155,8 @@ pub struct DesignView {
     pub quantity: Quantity,
     /// What is searched.
     pub search: SearchView,
+    /// How the device is shaken on the page Shake.
+    pub shake: ShakeView,
 }
 
 impl Default for DesignView {
@@ -169,6 +174,7 @@ impl Default for DesignView {
             resonance: Resonance::First,
             quantity: Quantity::Power,
             search: SearchView::default(),
+            shake: ShakeView::default(),
         }
     }
 }
@@ -186,6 +192,7 @@ impl DesignView {
             ModelError::check("design.least", least, POWERS, " W")?;
         }
         self.limits.validate()?;
+        self.shake.check()?;
         counted("design.mode", self.mode, (1, MAX_MODES))?;
         counted("design.search.generations", self.search.generations, GENERATIONS)?;
         for side in self.search.sides.iter().chain(&self.search.third) {

@@ -27,6 +27,10 @@ macro_rules! panels {
             MagnetForce magnet_force
             DesignMap design_map
             Measured measured
+            ShakenVoltage shaken_voltage
+            ShakenSpectrum shaken_spectrum
+            ShakenPower shaken_power
+            ShakenWith shaken_with
         }
     };
 }

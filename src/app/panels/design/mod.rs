@@ -12,6 +12,7 @@ pub(super) mod measure;
 pub(super) mod optimum;
 pub(in crate::app) mod safety;
 pub(super) mod search;
+pub(super) mod shaking;
 mod summary;
 #[cfg(test)]
 mod tests;
@@ -20,7 +21,7 @@ mod trust;
 use egui::Ui;
 
 use self::beside::beside;
-use super::{Context, grid, measured};
+use super::{Context, grid, measured, plots};
 use crate::app::bench::questions;
 use crate::app::crew::Studies;
 use crate::app::text::tr;
@@ -41,6 +42,11 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Page::Trust => trust::show(context, ui),
         Page::Search => beside(context, ui, search::cards),
         Page::Measured => beside(context, ui, measured::cards),
+        Page::Shake => {
+            shaking::show(context, ui);
+            ui.add_space(grid::GAP);
+            plots::cards(context, ui);
+        }
     }
 }
 
@@ -51,7 +57,7 @@ pub(in crate::app) fn ask(studies: &mut Studies, view: &View) {
         Page::Harvest => studies.load(view),
         Page::Materials => studies.tabulate(questions::materials(view)),
         Page::Trust => studies.tabulate(questions::trust(view)),
-        Page::Load | Page::Search | Page::Measured => {}
+        Page::Load | Page::Search | Page::Measured | Page::Shake => {}
     }
 }
 
@@ -63,6 +69,7 @@ fn choose(context: &mut Context<'_>, ui: &mut Ui) {
         (Page::Trust, tr("Trust")),
         (Page::Search, tr("Search")),
         (Page::Measured, tr("Measured")),
+        (Page::Shake, tr("Shake")),
     ];
     let mut page = context.view.design.page;
     if tabs(ui, &mut page, &pages) {
