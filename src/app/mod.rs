@@ -117,6 +117,8 @@ impl App {
     /// A new application with its `crew`, continuing what an earlier session `stored` when that is valid.
     pub fn new(context: &egui::Context, stored: Option<&str>, crew: Rc<RefCell<Crew>>) -> Self {
         fonts::install(context, None);
+        // A tap is one however long a slow picture takes.
+        context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
         let (view, notice) = View::restore(stored);
         let mut session = Session::default();
         session.ask(&view.scenario);
@@ -214,6 +216,7 @@ impl App {
     /// Leaves those events out that belong to the browser.
     pub fn sift(&self, context: &egui::Context, events: &mut Vec<egui::Event>) {
         events.retain(|event| !matches!(event, egui::Event::MouseWheel { .. }) || self.keeps(context, event));
+        widgets::touch::part_taps(context, events);
         widgets::touch::end_cancelled(events, context.input(|input| input.pointer.latest_pos()));
     }
 
@@ -262,6 +265,7 @@ impl App {
             address: &self.address,
             embed: self.embed.as_ref(),
             steps: self.history.can(),
+            on_top: None,
             commands,
         };
         layout::draw(&mut context, self.notice.as_deref(), ui);

@@ -20,6 +20,7 @@ mod grid;
 pub(super) mod lessons;
 pub(super) mod list;
 pub(super) mod live;
+pub(super) mod on_top;
 pub(super) mod paper;
 pub(super) mod parts;
 mod phase_plane;
@@ -67,6 +68,8 @@ pub(super) struct Context<'a> {
     pub embed: Option<&'a Embed>,
     /// Whether there is a step to take back, and one to take again.
     pub steps: (bool, bool),
+    /// Where the chosen plot stands above the tab, which then leaves its plots out.
+    pub on_top: Option<egui::Rect>,
     pub commands: &'a mut Commands,
 }
 

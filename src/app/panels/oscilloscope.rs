@@ -12,7 +12,7 @@ use crate::app::theme;
 use crate::app::view::Tab;
 use crate::app::view::live::Trace;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips};
+use crate::app::widgets::{Series, chips, row};
 use crate::export::Pen;
 
 /// Excitation periods a second from which the trace stands still between triggers instead of rolling.
@@ -36,7 +36,7 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
 fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     let mut live = context.view.live;
     let weak = theme::tokens(ui).text_weak;
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         let traces = [(Trace::Voltage, tr("voltage")), (Trace::Tip, tr("tip"))];
         chips(ui, tr("Trace"), &mut live.trace, &traces);
         chips(ui, tr("Periods across"), &mut live.periods, &WINDOWS);

@@ -29,6 +29,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
                 title(ui);
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     ui.spacing_mut().item_spacing.x = 2.0;
+                    shortcuts::button(ui);
                     switches(context, ui, width < PHONE);
                     share::buttons(context, ui);
                     status(context, ui, if width < PHONE { sign } else { badge });
@@ -75,17 +76,17 @@ fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str
     };
 }
 
-/// Where there is no room for another switch, the languages stand among the themes.
-fn switches(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
-    if !with_languages {
+/// Where there is no room for more switches, languages and large type stand among the themes.
+fn switches(context: &mut Context<'_>, ui: &mut Ui, few: bool) {
+    if !few {
         let button = icon_button(ui, Icon::Globe, tr("Language"));
         let popup = Popup::menu(&button).accessible_name(tr("Language"));
         popup.show(|ui| languages(context.commands, ui));
     }
-    choose_theme(context, ui, with_languages);
+    choose_theme(context, ui, few);
     let large = context.view.projector;
     let label = if large { tr("Normal type") } else { tr("Large type for a projector") };
-    if icon_button(ui, if large { Icon::Shrink } else { Icon::Enlarge }, label).clicked() {
+    if !few && icon_button(ui, if large { Icon::Shrink } else { Icon::Enlarge }, label).clicked() {
         context.commands.push(Command::SetProjector(!large));
     }
     let pinned = context.session.pinned.is_some();
@@ -100,7 +101,7 @@ fn switches(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
 }
 
 /// The menu of themes: the choice, or the system's, and high contrast with either.
-fn choose_theme(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
+fn choose_theme(context: &mut Context<'_>, ui: &mut Ui, with_more: bool) {
     let tokens = theme::tokens(ui);
     let button = icon_button(ui, if tokens.dark { Icon::Moon } else { Icon::Sun }, tr("Theme"));
     let popup = Popup::menu(&button).accessible_name(tr("Theme"));
@@ -121,7 +122,11 @@ fn choose_theme(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
         if ui.checkbox(&mut contrast, tr("High contrast")).clicked() {
             commands.push(Command::SetContrast(contrast));
         }
-        if with_languages {
+        if with_more {
+            let mut large = view.projector;
+            if ui.checkbox(&mut large, tr("Large type for a projector")).clicked() {
+                commands.push(Command::SetProjector(large));
+            }
             ui.separator();
             languages(commands, ui);
         }

@@ -227,7 +227,9 @@ mod tests {
                 desk.app.load_json(&json).expect("a scenario");
                 for frames in [1, 4] {
                     desk.work(frames);
-                    tops.push(desk.harness.find(egui::Role::Button, "Enlarge: ").bounds.top());
+                    // Where there is one column, what stands beneath are the folded sliders.
+                    let beneath = if width > 760.0 { "Enlarge: " } else { "Magnet" };
+                    tops.push(desk.harness.find(egui::Role::Button, beneath).bounds.top());
                 }
                 headlines.extend(desk.harness.texts.iter().map(|(text, _)| text.clone()).filter(|text| {
                     ["Period", "Not settled", "Escape", "Contact", "Quasi", "Chaotic"]

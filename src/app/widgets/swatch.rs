@@ -3,6 +3,7 @@
 use egui::{Color32, Mesh, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use super::recorder;
+use super::row::row;
 use crate::app::text::fill;
 use crate::app::{fonts, theme};
 use crate::export::figure::Key;
@@ -18,9 +19,9 @@ pub enum Filling {
     Hatching,
 }
 
-/// Filled squares with their meaning; the row breaks where it is too narrow.
+/// A row of filled squares with their meaning.
 pub fn swatches(ui: &mut Ui, entries: &[(Filling, &str)]) {
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(12.0, 0.0);
         let danger = theme::tokens(ui).danger;
         for (filling, meaning) in entries {
