@@ -139,7 +139,7 @@ mod tests {
                 desk.harness.nodes.iter().find(found).map(|node| node.bounds.top())
             };
             let top = button(&desk);
-            let at = egui::pos2(width - 100.0, 400.0);
+            let at = egui::pos2(width - 100.0, height - 120.0);
             let turn = egui::Event::MouseWheel {
                 unit: egui::MouseWheelUnit::Point,
                 delta: egui::vec2(0.0, -150.0),

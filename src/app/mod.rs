@@ -105,6 +105,8 @@ pub struct App {
     /// Cards to be saved at the end of this frame.
     exports: Vec<(String, Format)>,
     speech: Speech,
+    /// Whether a clip is being recorded.
+    records: bool,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool, bool)>,
     /// Whether the system asks for high contrast.
@@ -140,6 +142,7 @@ impl App {
             exports,
             styled: None,
             speech: Speech::default(),
+            records: false,
             system_contrast: false,
             device: None,
         };
@@ -265,6 +268,7 @@ impl App {
             address: &self.address,
             embed: self.embed.as_ref(),
             steps: self.history.can(),
+            records: self.records,
             on_top: None,
             commands,
         };
@@ -273,7 +277,15 @@ impl App {
 
     /// Lets the live run go on and be heard.
     fn go_on(&mut self, context: &egui::Context) {
-        if self.live.frame(context.input(|input| input.time), &self.view) {
+        let live = |panel: &view::Panel| panels::list::spec(*panel).place.tab() == Tab::Live;
+        let in_sight = match &self.embed {
+            Some(embed) => {
+                embed.parts.contains(&embed::Part::Live)
+                    || view::Panel::ALL.iter().any(|panel| live(panel) && embed.shows(*panel))
+            }
+            None => self.view.tab == Tab::Live,
+        };
+        if self.live.frame(context.input(|input| input.time), &self.view, in_sight) {
             context.request_repaint();
         }
         self.errands.extend(self.live.chunk().map(Errand::Sound));

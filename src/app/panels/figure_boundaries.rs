@@ -9,7 +9,7 @@ use crate::app::text::tr;
 use crate::app::theme;
 use crate::app::widgets::number::significant;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Card, Series, legend, row};
+use crate::app::widgets::{Card, Icon, Series, legend, row};
 use crate::export::Pen;
 
 const HEIGHT: f32 = 380.0;
@@ -67,6 +67,9 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigu
         });
     });
     context.export(title, shown.export);
+    if shown.pressed == Some(Icon::Record) {
+        context.record(ui, title, shown.rect);
+    }
 }
 
 /// The same pen with twice the weight.

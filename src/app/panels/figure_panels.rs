@@ -8,7 +8,7 @@ use crate::app::figures::Figure;
 use crate::app::session::Shown;
 use crate::app::text::tr;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Card, Series};
+use crate::app::widgets::{Card, Icon, Series};
 use crate::theory::SteadyState;
 
 /// Points of a drawn history.
@@ -74,6 +74,9 @@ pub(super) fn show(
         }
     });
     context.export(title, shown.export);
+    if shown.pressed == Some(Icon::Record) {
+        context.record(ui, title, shown.rect);
+    }
     shown.chosen
 }
 

@@ -56,16 +56,21 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     context.on_top = Some(shown.response.rect);
 }
 
-/// Scrolls what is beneath by a finger that came down on the plot and drags nothing of it.
+/// Scrolls what is beneath by the wheel over the plot, or by a finger that came down on it and drags nothing of it.
 pub(in crate::app) fn scroll_beneath(context: &Context<'_>, ui: &Ui) {
-    let Some(plot) = context.on_top.filter(|_| touch::in_use(ui.ctx()) && ui.ctx().dragged_id().is_none())
-    else {
+    let Some(plot) = context.on_top else { return };
+    let touched = touch::in_use(ui.ctx());
+    if touched && ui.ctx().dragged_id().is_some() {
         return;
-    };
+    }
     let turn = ui.input(|input| {
         let pointer = &input.pointer;
-        let from_there = pointer.press_origin().is_some_and(|origin| plot.contains(origin));
-        if from_there && pointer.any_down() { pointer.delta().y } else { 0.0 }
+        let on_it = |at: Option<egui::Pos2>| at.is_some_and(|at| plot.contains(at));
+        match touched {
+            true if pointer.any_down() && on_it(pointer.press_origin()) => pointer.delta().y,
+            false if on_it(pointer.hover_pos()) => input.smooth_scroll_delta().y,
+            _ => 0.0,
+        }
     });
     touch::scroll(ui.ctx(), turn);
 }

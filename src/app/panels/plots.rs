@@ -74,14 +74,16 @@ pub(super) fn draw_among(
     let card = if spec.exports { card.exports() } else { card };
     let card = if context.on_top.is_some() { card } else { card.button(icon, label) };
     let shown = card.show(ui, |ui| {
-        if context.is_stale() && context.view.tab != Tab::Live {
+        if context.is_stale() && spec.place.tab() != Tab::Live {
             ui.multiply_opacity(0.55);
         }
         (spec.contents)(context, ui);
     });
     context.export(title, shown.export);
-    if shown.pressed.is_some() {
-        context.commands.push(Command::Enlarge((!large).then_some(panel)));
+    match shown.pressed {
+        Some(Icon::Record) => context.record(ui, title, shown.rect),
+        Some(_) => context.commands.push(Command::Enlarge((!large).then_some(panel))),
+        None => {}
     }
     shown.chosen
 }

@@ -8,6 +8,7 @@ use crate::app::panels::computing;
 use crate::app::session::Status;
 use crate::app::text::{self, Language, tr};
 use crate::app::view::Tab;
+use crate::app::widgets::card::has_clips;
 use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, sign, tabs};
 use crate::app::{fonts, theme};
 
@@ -30,6 +31,9 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     ui.spacing_mut().item_spacing.x = 2.0;
                     shortcuts::button(ui);
+                    if context.records {
+                        stage(context, ui);
+                    }
                     switches(context, ui, width < PHONE);
                     share::buttons(context, ui);
                     status(context, ui, if width < PHONE { sign } else { badge });
@@ -46,6 +50,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             choose_tab(context, ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 shortcuts::button(ui);
+                stage(context, ui);
                 switches(context, ui, false);
                 share::buttons(context, ui);
                 ui.add_space(6.0);
@@ -76,6 +81,24 @@ fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str
     };
 }
 
+/// What a lecture needs: the whole screen, and a clip of the page, which says so while it is recorded.
+fn stage(context: &mut Context<'_>, ui: &mut Ui) {
+    if context.records {
+        let tokens = theme::tokens(ui);
+        let text = egui::RichText::new(tr("Stop recording")).color(tokens.on_accent);
+        if ui.add(egui::Button::new(text).fill(tokens.danger)).clicked() {
+            context.commands.push(Command::Record(None));
+        }
+    } else if has_clips(ui.ctx()) && icon_button(ui, Icon::Record, tr("Record a clip of the page")).clicked()
+    {
+        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
+        context.commands.push(Command::Record(Some(("page".to_owned(), whole))));
+    }
+    if cfg!(target_arch = "wasm32") && icon_button(ui, Icon::Enlarge, tr("Full screen (Shift+F)")).clicked() {
+        context.commands.push(Command::FullScreen);
+    }
+}
+
 /// Where there is no room for more switches, languages and large type stand among the themes.
 fn switches(context: &mut Context<'_>, ui: &mut Ui, few: bool) {
     if !few {
@@ -86,7 +109,7 @@ fn switches(context: &mut Context<'_>, ui: &mut Ui, few: bool) {
     choose_theme(context, ui, few);
     let large = context.view.projector;
     let label = if large { tr("Normal type") } else { tr("Large type for a projector") };
-    if !few && icon_button(ui, if large { Icon::Shrink } else { Icon::Enlarge }, label).clicked() {
+    if !few && icon_button(ui, Icon::Type, label).clicked() {
         context.commands.push(Command::SetProjector(!large));
     }
     let pinned = context.session.pinned.is_some();

@@ -1,6 +1,8 @@
 //! A titled panel with rounded corners.
 
-use egui::{Align2, Layout, Popup, Rect, Response, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, Context, Id, Layout, Popup, Rect, Response, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
 
 use super::icon::{self, BUTTON_SIDE, Icon};
 use super::plot_style::views;
@@ -13,8 +15,23 @@ use crate::export::Format;
 /// Height of the title row and inner margin, points.
 const TITLE_ROW: f32 = 34.0;
 const MARGIN: f32 = 12.0;
-/// Number of the button that gives plots their own views again.
+/// Numbers of the button that gives plots their own views again, and of that which holds their axes.
 const FIT: usize = usize::MAX;
+const HOLD: usize = usize::MAX - 1;
+
+fn clips() -> Id {
+    Id::unique("clips")
+}
+
+/// Says whether cards can be recorded as they move.
+pub fn offer_clips(context: &Context, offered: bool) {
+    context.data_mut(|data| data.insert_temp(clips(), offered));
+}
+
+/// Whether what is shown can be recorded as it moves.
+pub fn has_clips(context: &Context) -> bool {
+    context.data(|data| data.get_temp(clips())).unwrap_or(false)
+}
 
 /// A panel with a title, a quiet hint at the right and icon buttons.
 ///
@@ -182,10 +199,13 @@ impl<'a> Card<'a> {
         let mut right = rect.right() - 5.0;
         let chosen = if self.among.is_empty() { None } else { self.choose(ui, title) };
         let (mut pressed, mut export) = (None, None);
-        let fit = views::changed(ui.ctx()).then(|| (Icon::Reset, tr("Fit the view")));
-        for (index, (icon, label)) in
-            self.buttons.iter().enumerate().rev().chain(fit.iter().map(|fit| (FIT, fit)))
-        {
+        let held = views::held(ui.ctx());
+        let hold =
+            held.map(|held| (Icon::Lock, if held { tr("Let the axes go") } else { tr("Hold the axes") }));
+        let changed = held == Some(false) && views::changed(ui.ctx());
+        let fit = changed.then(|| (Icon::Reset, tr("Fit the view")));
+        let own = hold.iter().map(|hold| (HOLD, hold)).chain(fit.iter().map(|fit| (FIT, fit)));
+        for (index, (icon, label)) in self.buttons.iter().enumerate().rev().chain(own) {
             let place = Rect::from_center_size(
                 pos2(right - 0.5 * BUTTON_SIDE, middle),
                 egui::Vec2::splat(BUTTON_SIDE),
@@ -193,6 +213,10 @@ impl<'a> Card<'a> {
             let id = ui.make_persistent_id((self.title, "card button", index));
             let response: Response = ui.interact(place, id, Sense::click());
             icon::paint_button(ui, place, &response, *icon, &format!("{label}: {}", self.title));
+            if index == HOLD && held == Some(true) {
+                let sign = Rect::from_center_size(place.center(), egui::Vec2::splat(13.0));
+                icon::paint(ui.painter(), sign, *icon, tokens.accent);
+            }
             if *icon == Icon::Download {
                 Popup::menu(&response).show(|ui| {
                     for (format, name) in Format::ALL {
@@ -200,9 +224,14 @@ impl<'a> Card<'a> {
                             export = Some(format);
                         }
                     }
+                    if has_clips(ui.ctx()) && ui.button(tr("Clip (video)")).clicked() {
+                        pressed = Some(Icon::Record);
+                    }
                 });
-            } else if response.clicked() && index == FIT {
+            } else if response.clicked() && (index == FIT || (index == HOLD && held == Some(true))) {
                 views::fit(ui.ctx());
+            } else if response.clicked() && index == HOLD {
+                views::hold(ui.ctx());
             } else if response.clicked() {
                 pressed = Some(*icon);
             }
