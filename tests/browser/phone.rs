@@ -44,11 +44,11 @@ fn drags_under_its_plot(page: &mut Page, place: &str, height: f64) {
     }
     page.wait(&format!("the slider to move: {place}"), |page| {
         let controls = page.controls();
-        let stays =
-            controls.iter().any(|control| control.label.starts_with("Export: ") && control.bounds[1] > 0.0);
-        assert!(stays, "{place}: the plot has gone");
         let same =
             controls.iter().find(|control| control.role == "Slider" && control.label == slider.label)?;
+        let stays =
+            controls.iter().any(|control| control.label.starts_with("Export: ") && control.bounds[1] > 0.0);
+        assert!(stays, "{place}: the plot has gone: {controls:?}");
         (same.number != Some(before)).then_some(())
     });
 }

@@ -4,17 +4,20 @@ use egui::{
     Align2, Context, Id, Layout, Popup, Rect, Response, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
+use super::explanation::{self, explained};
 use super::icon::{self, BUTTON_SIDE, Icon};
 use super::plot_style::views;
 use super::recorder;
 use super::row;
-use crate::app::text::{fill, tr};
+use crate::app::text::{fill, terms, tr};
 use crate::app::{fonts, theme};
 use crate::export::Format;
 
 /// Height of the title row and inner margin, points.
 const TITLE_ROW: f32 = 34.0;
 const MARGIN: f32 = 12.0;
+/// Width of what its title means, in the menu of others.
+const MEANING: f32 = 260.0;
 /// Numbers of the button that gives plots their own views again, and of that which holds their axes.
 const FIT: usize = usize::MAX;
 const HOLD: usize = usize::MAX - 1;
@@ -181,6 +184,11 @@ impl<'a> Card<'a> {
                     chosen = Some(index);
                 }
             }
+            if let Some(term) = terms::meaning(self.title) {
+                ui.separator();
+                ui.set_max_width(MEANING);
+                explanation::meaning(ui, "", term);
+            }
         });
         chosen
     }
@@ -197,7 +205,13 @@ impl<'a> Card<'a> {
             tokens.text_strong,
         );
         let mut right = rect.right() - 5.0;
-        let chosen = if self.among.is_empty() { None } else { self.choose(ui, title) };
+        let chosen = if self.among.is_empty() {
+            let id = ui.make_persistent_id((self.title, "meaning"));
+            explained(ui.interact(title.expand2(vec2(0.0, 4.0)), id, Sense::CLICK), self.title);
+            None
+        } else {
+            self.choose(ui, title)
+        };
         let (mut pressed, mut export) = (None, None);
         let held = views::held(ui.ctx());
         let hold =

@@ -2,6 +2,7 @@
 
 use egui::{Color32, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::explanation::explained;
 use super::recorder;
 use super::row::{self, row};
 use super::series::Series;
@@ -20,7 +21,7 @@ pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
     let sample = if row::is_low(ui.ctx()) { SHORT_SAMPLE } else { SAMPLE };
     let galley =
         ui.painter().layout_no_wrap(label.to_owned(), fonts::regular(theme::size::SMALL), tokens.text_weak);
-    let (rect, response) = ui.allocate_exact_size(vec2(sample + galley.size().x, 18.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(sample + galley.size().x, 18.0), Sense::CLICK);
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, label));
     let (left, right) =
@@ -45,7 +46,7 @@ pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
     }
     let at = pos2(rect.left() + sample - 1.0, rect.center().y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.text_weak);
-    response
+    explained(response, label)
 }
 
 /// A mark as plots draw it.

@@ -3,6 +3,7 @@
 pub mod badge;
 pub mod beam_view;
 pub mod card;
+pub mod explanation;
 pub mod fold;
 pub mod hatching;
 pub mod icon;
@@ -26,6 +27,7 @@ pub use crate::export::number;
 pub use badge::{BadgeKind, badge, sign};
 pub use beam_view::BeamView;
 pub use card::{Card, CardResponse};
+pub use explanation::{explained, words_explained};
 pub use fold::Fold;
 pub use hatching::{Hatched, hatched};
 pub use icon::{Icon, icon_button};

@@ -2,6 +2,7 @@
 
 use egui::{Color32, Mesh, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
+use super::explanation::explained;
 use super::recorder;
 use super::row::row;
 use crate::app::text::fill;
@@ -37,7 +38,7 @@ fn swatch(ui: &mut Ui, filling: Filling, meaning: &str) -> Response {
     let font = fonts::regular(theme::size::SMALL);
     let galley = ui.painter().layout_no_wrap(meaning.to_owned(), font, tokens.text_weak);
     let size = vec2(SIDE + 6.0 + galley.size().x, 18.0);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(size, Sense::CLICK);
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, meaning));
     let square = Rect::from_center_size(pos2(rect.left() + 0.5 * SIDE, rect.center().y), vec2(SIDE, SIDE));
@@ -49,7 +50,7 @@ fn swatch(ui: &mut Ui, filling: Filling, meaning: &str) -> Response {
     }
     let at = pos2(rect.left() + SIDE + 6.0, rect.center().y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.text_weak);
-    response
+    explained(response, meaning)
 }
 
 fn hatch(ui: &Ui, square: Rect) {

@@ -116,7 +116,9 @@ fn dragged_to(ui: &Ui, response: &Response, rail: Rect, now: f64, places: &[f64]
     if ui.input(|input| input.pointer.any_pressed()) {
         let offset = pointer.x - thumb_x;
         let held = offset.abs() <= THUMB;
-        let finger = touch::in_use(ui.ctx()).then_some((pointer, Way::Open));
+        // In a slow picture the finger has moved on already.
+        let down = ui.input(|input| input.pointer.press_origin()).unwrap_or(pointer);
+        let finger = touch::in_use(ui.ctx()).then_some((down, Way::Open));
         let offset = if held { offset } else { 0.0 };
         grab = Grab { offset, fine: fine.then_some((pointer.x, now)), finger };
         ui.data_mut(|data| data.insert_temp(id, grab));
@@ -127,12 +129,14 @@ fn dragged_to(ui: &Ui, response: &Response, rail: Rect, now: f64, places: &[f64]
         return (!held).then_some(here);
     }
     if let Some((down, before)) = grab.finger {
-        let way = way(before, pointer - down);
+        let moved = pointer - down;
+        let way = way(before, moved);
         grab.finger = Some((down, way));
         ui.data_mut(|data| data.insert_temp(id, grab));
         match way {
             Way::Scrolls => {
-                touch::scroll(ui.ctx(), ui.input(|input| input.pointer.delta().y));
+                let turn = ui.input(|input| input.pointer.delta().y);
+                touch::scroll(ui.ctx(), if before == Way::Open { moved.y } else { turn });
                 return None;
             }
             // A tap.
