@@ -19,6 +19,7 @@ mod measured;
 mod messages;
 mod own_device;
 mod properties;
+mod rectifier;
 mod reference_values;
 mod spectrum;
 mod stability_boundaries;

@@ -58,6 +58,12 @@ impl LinearPart {
         }
     }
 
+    /// The same with the voltage held where it is, as at the store of a rectifier that conducts: dv/dt = 0.
+    #[must_use]
+    pub(super) fn clamped(self) -> Self {
+        Self { inverse_capacitance: 0.0, ..self }
+    }
+
     /// Length 2N + 3 of the extended vector.
     pub fn extended_dimension(&self) -> usize {
         2 * self.modes + 3
