@@ -13,8 +13,10 @@ use super::materials::Fitted;
 use super::motion_chart::MotionChart;
 use super::motions::Motions;
 use super::multiplier_chart::{Columns, MultiplierChart};
+use super::rectifier::{BestVoltage, OpenCircuit, Rectified, RectifierStudy};
 use super::request::Task;
 use super::sweep::{Stretch, SweepStudy};
+use super::tolerances::{Leaning, Meant, ToleranceStudy};
 use super::tongues::{Border, TongueStudy};
 use super::trust::Entry;
 use crate::scheduler::lane::Traffic;
@@ -40,6 +42,7 @@ pub const TASKS: &[Task] = &[
     Task::of::<super::trust::Trust>(),
     Task::of::<super::find::Find>(),
     Task::of::<super::map::Map>(),
+    Task::of::<super::tolerances::Tolerances>(),
 ];
 
 /// What workers can do.
@@ -60,9 +63,14 @@ pub const HANDS: &[Hand] = &[
     Hand::of::<Forced>(),
     Hand::of::<Reached>(),
     Hand::of::<BestAt>(),
+    Hand::of::<OpenCircuit>(),
+    Hand::of::<Rectified>(),
+    Hand::of::<BestVoltage>(),
     Hand::of::<Fitted>(),
     Hand::of::<Entry>(),
     Hand::of::<Evaluate>(),
+    Hand::of::<Meant>(),
+    Hand::of::<Leaning>(),
 ];
 
 fn lane<S: Study>(name: &'static str, first: Option<S>) -> (&'static str, Box<dyn Traffic>) {
@@ -89,11 +97,13 @@ pub fn lanes() -> Lanes {
         lane::<BasinStudy>("basin", None),
         lane::<HarvestStudy>("harvest", None),
         lane::<LoadStudy>("load", None),
+        lane::<RectifierStudy>("rectifier", None),
         lane::<Table<BestAt>>("best frequencies", None),
         lane::<Table<Fitted>>("materials", None),
         lane::<Table<Entry>>("trust", None),
         lane::<FindStudy>("find", None),
         lane::<DesignMap>("map", None),
+        lane::<ToleranceStudy>("tolerances", None),
     ];
     Lanes::new(lanes, 4)
 }

@@ -22,6 +22,7 @@ use harvester_lab::questions::load::{BestAt, Forced, Reached};
 use harvester_lab::questions::materials::Fitted;
 use harvester_lab::questions::motions::{Coordinate, MotionPlane, Motions};
 use harvester_lab::questions::multiplier_chart::Columns;
+use harvester_lab::questions::rectifier::{BestVoltage, OpenCircuit, Rectified};
 use harvester_lab::questions::sweep::Stretch;
 use harvester_lab::questions::tongues::Border;
 use harvester_lab::questions::trust::Entry;
@@ -140,6 +141,9 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
             resonance: Resonance::First,
             window,
         }),
+        sent(&OpenCircuit { scenario: scenario.clone() }),
+        sent(&Rectified { scenario: scenario.clone(), voltage: 2.0, drop: 0.3 }),
+        sent(&BestVoltage { scenario: scenario.clone(), between: (1.0, 1.5), drop: 0.0 }),
         sent(&Entry { scenario, modes: 2, law: ForceLaw::Exact, quantity: Quantity::Power }),
         sent(&Evaluate { question, values: vec![1e-5] }),
     ];

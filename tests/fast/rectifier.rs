@@ -5,7 +5,9 @@ use std::f64::consts::{PI, TAU};
 use harvester_lab::dynamics::attractors::rectified::{RectifiedBalance, Steady, settle_rectified};
 use harvester_lab::dynamics::integration::rectified::{RectifiedRun, RectifiedTotals};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
+use harvester_lab::questions::solve;
 use harvester_lab::theory::Source;
+use serde_json::Value;
 
 fn system(set: ParameterSet, modes: usize, law: ForceLaw) -> ReducedSystem {
     ReducedSystem::new(Parameters::new(set).expect("in range"), modes, law).expect("a device")
@@ -199,4 +201,46 @@ fn a_resonance_that_takes_long_is_settled_by_its_cycle() {
     run.period(Some(&mut totals)).expect("steps");
     let waited = threshold * totals.charge / totals.duration;
     assert!((balance.rectifier / waited - 1.0).abs() < 1e-6, "{} {waited}", balance.rectifier);
+}
+
+fn answer(request: &str) -> Value {
+    serde_json::from_str(&solve(request).expect(request)).expect("JSON")
+}
+
+#[test]
+fn requests_get_the_power_into_the_store_beside_that_in_a_load() {
+    let device = r#""task":"harvest","device":{"frequency":2.835,"resistance":7631732},"acceleration":0.15"#;
+    let begin = std::time::Instant::now();
+    let found = answer(&format!("{{{device},\"rectifier\":{{\"voltage\":3,\"drop\":0.25}}}}"));
+    println!("{:.3} s", begin.elapsed().as_secs_f64());
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let rectified = &found["rectified"];
+    let own = &rectified["at_voltage"];
+    let of = |name: &str| number(&own["delivered"][name]);
+    assert_eq!(number(&own["voltage"]), 3.0);
+    assert!((of("power") - 3.0 * of("current")).abs() < 1e-12 * of("power"));
+    assert!((of("diodes") - 0.5 * of("current")).abs() < 1e-12 * of("power"));
+    assert!((of("v_peak") - 3.5).abs() < 1e-9);
+    let out = of("power") + of("diodes") + of("viscous") + of("dielectric");
+    assert!((out / of("input") - 1.0).abs() < 1e-8 && of("defect") < 1e-8, "{own}");
+    let curve = rectified["curve"].as_array().expect("a curve");
+    assert_eq!(curve.len(), 24);
+    let open = number(&rectified["open_circuit"]);
+    let best = &rectified["best"];
+    let powers: Vec<f64> = curve.iter().map(|point| number(&point["delivered"]["power"])).collect();
+    let highest = powers.iter().copied().fold(0.0, f64::max);
+    assert!(number(&best["delivered"]["power"]) >= highest && number(&best["voltage"]) < open - 0.5);
+    // In a linear device the best rectified power is below that of the best load, and not by much.
+    let [_, watts] = [0, 1].map(|i| number(&rectified["resistive_linear"][i]));
+    assert!(watts > 0.0);
+    // Without a rectifier the answer is as before.
+    assert!(answer(&format!("{{{device}}}")).get("rectified").is_none());
+    let refused =
+        |rectifier: &str| solve(&format!("{{{device},\"rectifier\":{rectifier}}}")).expect_err(rectifier);
+    assert_eq!(
+        refused(r#"{"voltage":0}"#),
+        "rectifier.voltage = 0 is out of range: allowed are 1e-6 to 1000000 V"
+    );
+    assert!(refused(r#"{"drop":-1}"#).starts_with("rectifier.drop = -1 is out of range"));
+    assert!(refused(r#"{"volts":1}"#).starts_with("rectifier.volts"));
 }

@@ -14,6 +14,7 @@ use crate::questions::harvest::Harvest;
 use crate::questions::load::{BestAt, Load, LoadStudy};
 use crate::questions::materials::{Fitted, Materials};
 use crate::questions::motions::{Coordinate, at_place};
+use crate::questions::rectifier::Rectifier;
 use crate::questions::trust::{Entry, Trust};
 use crate::scenario::{Forgotten, Scenario};
 use crate::scheduler::Table;
@@ -86,6 +87,14 @@ pub(in crate::app) fn harvest(view: &View, session: &Session) -> (Scenario, Harv
 /// The curves over the load, at the frequency in view.
 pub(in crate::app) fn load(view: &View) -> (Scenario, Load) {
     (view.scenario.forgetting(&[Forgotten::Duration]), Load::default())
+}
+
+/// A rectifier in place of the load, which plays no role then.
+pub(in crate::app) fn rectifier(view: &View) -> (Scenario, Rectifier) {
+    let kappa = ParameterSet::default().get(Parameter::Kappa);
+    let scenario =
+        view.scenario.forgetting(&[Forgotten::Duration, Forgotten::Number(Parameter::Kappa, kappa)]);
+    (scenario, Rectifier { drop: view.design.diode_drop, ..Rectifier::default() })
 }
 
 /// The ceramics on the device in view. What they replace plays no role and must not make another question.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::model::{Dimension, Limits, MAX_MODES, ModelError};
 use crate::questions::design::trust::Quantity;
 use crate::questions::find::GENERATIONS;
+pub use crate::questions::rectifier::DROPS;
 use crate::scenario::counted;
 use crate::theory::Resonance;
 
@@ -142,6 +143,8 @@ pub struct DesignView {
     pub window: Option<(f64, f64)>,
     /// Power (W) that counts as usable; half of the highest when absent.
     pub least: Option<f64>,
+    /// Forward drop of a rectifier's diode (V).
+    pub diode_drop: f64,
     /// What must be kept. Its voltage is that of the ceramic where it is not given.
     pub limits: Limits,
     /// The mode that gets a ceramic's quality factor, from 1.
@@ -164,6 +167,7 @@ impl Default for DesignView {
             logarithmic: false,
             window: None,
             least: None,
+            diode_drop: 0.0,
             limits: Limits::default(),
             mode: 1,
             resonance: Resonance::First,
@@ -185,6 +189,7 @@ impl DesignView {
         if let Some(least) = self.least {
             ModelError::check("design.least", least, POWERS, " W")?;
         }
+        ModelError::check("design.diode_drop", self.diode_drop, DROPS, " V")?;
         self.limits.validate()?;
         counted("design.mode", self.mode, (1, MAX_MODES))?;
         counted("design.search.generations", self.search.generations, GENERATIONS)?;

@@ -24,6 +24,7 @@ macro_rules! panels {
             Response response
             Harvest harvest
             Load load
+            Store store
             MagnetForce magnet_force
             DesignMap design_map
             Measured measured

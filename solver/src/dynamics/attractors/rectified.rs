@@ -177,6 +177,12 @@ pub fn settle_rectified(
     Ok(if stays { (Steady::Stationary, Some(second), end) } else { (Steady::Undecided, None, end) })
 }
 
+/// A cycle, with the derivative of the map of its periods.
+struct Cycle {
+    state: Vec<f64>,
+    derivative: DMatrix<f64>,
+}
+
 struct Follower<'a> {
     system: &'a ReducedSystem,
     threshold: f64,
@@ -234,7 +240,7 @@ impl Follower<'_> {
     }
 
     fn near(&mut self, last: &[f64], periods: usize) -> Result<Option<Vec<f64>>, IntegrationError> {
-        let Some((cycle, derivative)) = self.newton(last, periods)? else { return Ok(None) };
+        let Some(Cycle { state: cycle, derivative }) = self.newton(last, periods)? else { return Ok(None) };
         let Some(values) = eigenvalues(&derivative, SHIFTS, 4e-16) else { return Ok(None) };
         if values.iter().any(|value| value.norm() > STABLE) {
             return Ok(None);
@@ -257,11 +263,7 @@ impl Follower<'_> {
     }
 
     /// Newton's iteration on the map of so many periods from `start`, and the map's derivative at its end.
-    fn newton(
-        &mut self,
-        start: &[f64],
-        periods: usize,
-    ) -> Result<Option<(Vec<f64>, DMatrix<f64>)>, IntegrationError> {
+    fn newton(&mut self, start: &[f64], periods: usize) -> Result<Option<Cycle>, IntegrationError> {
         let count = start.len();
         let mut state = start.to_vec();
         let mut before = f64::INFINITY;
@@ -282,7 +284,7 @@ impl Follower<'_> {
             }
             let residual = distance(&image, &state, &self.scales);
             if residual <= CLOSED * size {
-                return Ok(Some((image, derivative)));
+                return Ok(Some(Cycle { state: image, derivative }));
             }
             if !(residual < 4.0 * before) {
                 return Ok(None);

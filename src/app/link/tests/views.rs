@@ -7,7 +7,9 @@ use proptest::sample::select;
 
 use crate::app::lessons::{LessonId, STEPS};
 use crate::app::text::Language;
-use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched};
+use crate::app::view::design::{
+    Aim, DROPS, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched,
+};
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
 use crate::app::view::{MapWindow, Output, Panel, SweepView, Tab, View};
 use crate::dynamics::attractors::sweep::Dwell;
@@ -139,20 +141,24 @@ fn design() -> impl Strategy<Value = DesignView> {
     let front = (select(&PAGES[..]), select(&WATCHED[..]), 1..=8_usize, resonance(), quantity);
     let flags = any::<[bool; 3]>();
     let window = option::of((within(FREQUENCIES), within(FREQUENCIES)));
-    (front, flags, window, option::of(within(POWERS)), limits(), search()).prop_map(
-        |((page, watched, mode, resonance, quantity), flags, window, least, limits, search)| DesignView {
-            page,
-            dimensionless: flags[0],
-            holds_acceleration: flags[1],
-            watched,
-            logarithmic: flags[2],
-            window,
-            least,
-            limits,
-            mode,
-            resonance,
-            quantity,
-            search,
+    let watts = (option::of(within(POWERS)), within(DROPS));
+    (front, flags, window, watts, limits(), search()).prop_map(
+        |((page, watched, mode, resonance, quantity), flags, window, (least, diode_drop), limits, search)| {
+            DesignView {
+                page,
+                dimensionless: flags[0],
+                holds_acceleration: flags[1],
+                watched,
+                logarithmic: flags[2],
+                window,
+                least,
+                diode_drop,
+                limits,
+                mode,
+                resonance,
+                quantity,
+                search,
+            }
         },
     )
 }

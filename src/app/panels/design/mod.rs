@@ -12,6 +12,7 @@ pub(super) mod measure;
 pub(super) mod optimum;
 pub(in crate::app) mod safety;
 pub(super) mod search;
+mod store;
 mod summary;
 #[cfg(test)]
 mod tests;
