@@ -25,6 +25,7 @@ mod spectrum;
 mod stability_boundaries;
 #[cfg(feature = "app")]
 mod texts;
+mod tolerances;
 
 /// What a test gives back that fails by `?`, too.
 type Fallible<T> = Result<T, Box<dyn std::error::Error>>;

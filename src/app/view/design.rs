@@ -6,6 +6,7 @@ use crate::model::{Dimension, Limits, MAX_MODES, ModelError};
 use crate::questions::design::trust::Quantity;
 use crate::questions::find::GENERATIONS;
 pub use crate::questions::rectifier::DROPS;
+pub use crate::questions::tolerances::SCATTERS;
 use crate::scenario::counted;
 use crate::theory::Resonance;
 
@@ -24,6 +25,8 @@ pub enum Page {
     Trust,
     /// Maps and the search for a design.
     Search,
+    /// What the scatter of dimensions does.
+    Tolerances,
     /// Measured data over computed curves.
     Measured,
 }
@@ -145,6 +148,8 @@ pub struct DesignView {
     pub least: Option<f64>,
     /// Forward drop of a rectifier's diode (V).
     pub diode_drop: f64,
+    /// Standard deviation of every dimension, over its value.
+    pub scatter: f64,
     /// What must be kept. Its voltage is that of the ceramic where it is not given.
     pub limits: Limits,
     /// The mode that gets a ceramic's quality factor, from 1.
@@ -168,6 +173,7 @@ impl Default for DesignView {
             window: None,
             least: None,
             diode_drop: 0.0,
+            scatter: 0.01,
             limits: Limits::default(),
             mode: 1,
             resonance: Resonance::First,
@@ -190,6 +196,7 @@ impl DesignView {
             ModelError::check("design.least", least, POWERS, " W")?;
         }
         ModelError::check("design.diode_drop", self.diode_drop, DROPS, " V")?;
+        ModelError::check("design.scatter", self.scatter, SCATTERS, "")?;
         self.limits.validate()?;
         counted("design.mode", self.mode, (1, MAX_MODES))?;
         counted("design.search.generations", self.search.generations, GENERATIONS)?;

@@ -27,6 +27,7 @@ macro_rules! panels {
             Store store
             MagnetForce magnet_force
             DesignMap design_map
+            Tolerances tolerances
             Measured measured
         }
     };

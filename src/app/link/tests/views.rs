@@ -8,7 +8,7 @@ use proptest::sample::select;
 use crate::app::lessons::{LessonId, STEPS};
 use crate::app::text::Language;
 use crate::app::view::design::{
-    Aim, DROPS, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched,
+    Aim, DROPS, DesignView, FREQUENCIES, POWERS, Page, SCATTERS, SearchView, Side, Watched,
 };
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
 use crate::app::view::{MapWindow, Output, Panel, SweepView, Tab, View};
@@ -127,8 +127,15 @@ fn search() -> impl Strategy<Value = SearchView> {
 }
 
 fn design() -> impl Strategy<Value = DesignView> {
-    const PAGES: [Page; 6] =
-        [Page::Harvest, Page::Load, Page::Materials, Page::Trust, Page::Search, Page::Measured];
+    const PAGES: [Page; 7] = [
+        Page::Harvest,
+        Page::Load,
+        Page::Materials,
+        Page::Trust,
+        Page::Search,
+        Page::Tolerances,
+        Page::Measured,
+    ];
     const WATCHED: [Watched; 5] =
         [Watched::Power, Watched::PerG2, Watched::Voltage, Watched::Peak, Watched::Tip];
     let resonance = || select(&Resonance::ALL[..]);
@@ -141,9 +148,16 @@ fn design() -> impl Strategy<Value = DesignView> {
     let front = (select(&PAGES[..]), select(&WATCHED[..]), 1..=8_usize, resonance(), quantity);
     let flags = any::<[bool; 3]>();
     let window = option::of((within(FREQUENCIES), within(FREQUENCIES)));
-    let watts = (option::of(within(POWERS)), within(DROPS));
+    let watts = (option::of(within(POWERS)), within(DROPS), within(SCATTERS));
     (front, flags, window, watts, limits(), search()).prop_map(
-        |((page, watched, mode, resonance, quantity), flags, window, (least, diode_drop), limits, search)| {
+        |(
+            (page, watched, mode, resonance, quantity),
+            flags,
+            window,
+            (least, diode_drop, scatter),
+            limits,
+            search,
+        )| {
             DesignView {
                 page,
                 dimensionless: flags[0],
@@ -153,6 +167,7 @@ fn design() -> impl Strategy<Value = DesignView> {
                 window,
                 least,
                 diode_drop,
+                scatter,
                 limits,
                 mode,
                 resonance,

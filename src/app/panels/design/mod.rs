@@ -16,6 +16,7 @@ mod store;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod tolerances;
 mod trust;
 
 use egui::Ui;
@@ -41,6 +42,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Page::Materials => materials::show(context, ui),
         Page::Trust => trust::show(context, ui),
         Page::Search => beside(context, ui, search::cards),
+        Page::Tolerances => beside(context, ui, tolerances::cards),
         Page::Measured => beside(context, ui, measured::cards),
     }
 }
@@ -52,7 +54,7 @@ pub(in crate::app) fn ask(studies: &mut Studies, view: &View) {
         Page::Harvest => studies.load(view),
         Page::Materials => studies.tabulate(questions::materials(view)),
         Page::Trust => studies.tabulate(questions::trust(view)),
-        Page::Load | Page::Search | Page::Measured => {}
+        Page::Load | Page::Search | Page::Tolerances | Page::Measured => {}
     }
 }
 
@@ -63,6 +65,7 @@ fn choose(context: &mut Context<'_>, ui: &mut Ui) {
         (Page::Materials, tr("Materials")),
         (Page::Trust, tr("Trust")),
         (Page::Search, tr("Search")),
+        (Page::Tolerances, tr("Tolerances")),
         (Page::Measured, tr("Measured")),
     ];
     let mut page = context.view.design.page;
