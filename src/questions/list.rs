@@ -5,6 +5,7 @@ use super::basin::BasinStudy;
 use super::continuation::Response;
 use super::curves::{Crossings, CurvesStudy, Trace};
 use super::find::{Evaluate, FindStudy};
+use super::fit::{FitStudy, Voltages};
 use super::harvest::{Between, Branches, Deliver, HarvestStudy, Starts};
 use super::inspection::Inspect;
 use super::load::{BestAt, Forced, LoadStudy, Reached};
@@ -43,6 +44,7 @@ pub const TASKS: &[Task] = &[
     Task::of::<super::find::Find>(),
     Task::of::<super::map::Map>(),
     Task::of::<super::tolerances::Tolerances>(),
+    Task::of::<super::fit::Fit>(),
 ];
 
 /// What workers can do.
@@ -70,6 +72,7 @@ pub const HANDS: &[Hand] = &[
     Hand::of::<Entry>(),
     Hand::of::<Evaluate>(),
     Hand::of::<Meant>(),
+    Hand::of::<Voltages>(),
     Hand::of::<Leaning>(),
 ];
 
@@ -104,6 +107,7 @@ pub fn lanes() -> Lanes {
         lane::<FindStudy>("find", None),
         lane::<DesignMap>("map", None),
         lane::<ToleranceStudy>("tolerances", None),
+        lane::<FitStudy>("fit", None),
     ];
     Lanes::new(lanes, 4)
 }

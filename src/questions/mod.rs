@@ -26,6 +26,7 @@ pub mod curves;
 pub mod design;
 pub mod error;
 pub mod find;
+pub mod fit;
 pub mod harvest;
 pub mod input;
 pub mod inspection;

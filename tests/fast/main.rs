@@ -10,6 +10,7 @@ mod continuous_beam;
 mod equations_document;
 mod export;
 mod finite_element;
+mod fit;
 mod hill;
 mod integration;
 mod integrators;

@@ -15,6 +15,7 @@ use harvester_lab::questions::design::change::Way;
 use harvester_lab::questions::design::find::{FindQuestion, Objective, Variable};
 use harvester_lab::questions::design::trust::Quantity;
 use harvester_lab::questions::find::Evaluate;
+use harvester_lab::questions::fit::Voltages;
 use harvester_lab::questions::harvest::{Between, Branches, Deliver, Starts};
 use harvester_lab::questions::inspection::Inspect;
 use harvester_lab::questions::list::{self, HANDS, TASKS};
@@ -151,6 +152,12 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
             scenario: question.scenario.clone(),
             dimension: Dimension::BeamLength,
             resonance: Resonance::First,
+        }),
+        sent(&Voltages {
+            scenario: question.scenario.clone(),
+            shaking,
+            dimensions: vec![(Dimension::TipMass, 6e-4)],
+            frequencies: vec![2.8, 2.9],
         }),
         sent(&Evaluate { question, values: vec![1e-5] }),
     ];

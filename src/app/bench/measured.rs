@@ -4,14 +4,19 @@ use std::f64::consts::TAU;
 
 use egui_plot::PlotPoint;
 
+use super::questions::shaking;
 use crate::app::clock::milliseconds;
 use crate::app::session::Shown;
 use crate::app::text::say;
+use crate::app::view::View;
+use crate::model::Dimension;
 use crate::questions::design::measured::{
     Ask, Columns, Import, Kind, Layout, MeasuredError, decode, detect, detect_with,
 };
 use crate::questions::design::record::{Clock, Level, sorted};
 use crate::questions::design::thin::{Thinner, extent};
+use crate::questions::fit::Fit;
+use crate::scenario::{Forgotten, Scenario};
 
 /// Time that a frame may spend on reading, and rows between looks at the clock.
 const BUDGET_MS: f64 = 6.0;
@@ -21,6 +26,12 @@ const RECORDED: f64 = 20.0;
 const ROWS_PER_PERIOD: usize = 200;
 /// Buckets of the curve that is drawn.
 const BUCKETS: usize = 1500;
+
+/// Dimensions that can be fitted: damping, coupling, tip mass, gap.
+pub(in crate::app) const FITTED: [Dimension; 4] =
+    [Dimension::Viscosity, Dimension::Coupling, Dimension::TipMass, Dimension::MagnetDistance];
+/// Most points that are fitted; of more some are left out evenly.
+const MOST_FITTED: usize = 120;
 
 /// What the first column is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -47,6 +58,8 @@ pub(in crate::app) struct Reading {
     pub chosen: bool,
     /// Whether rows are put in the order of their times or frequencies.
     pub sorted: bool,
+    /// Which of the [`FITTED`] are fitted.
+    pub fitted: [bool; FITTED.len()],
 }
 
 /// A file.
@@ -217,12 +230,25 @@ impl File {
     }
 }
 
+/// The fit of the device in view to a file of voltages over frequency.
+pub(in crate::app) fn fit(file: &File, view: &View) -> (Scenario, Fit) {
+    let ticked = FITTED.iter().zip(file.reading.fitted).filter(|(_, ticked)| *ticked);
+    let every = file.points.len().div_ceil(MOST_FITTED).max(1);
+    let fit = Fit {
+        data: file.points.iter().step_by(every).copied().collect(),
+        free: ticked.map(|(dimension, _)| dimension.field().to_owned()).collect(),
+        hold: shaking(view),
+    };
+    (view.scenario.forgetting(&[Forgotten::Start, Forgotten::Duration]), fit)
+}
+
 /// How a file of this layout is read at first, and what has to be asked before.
 fn begin(layout: &Layout) -> (Reading, Option<Ask>) {
     let choice = layout.choose(Kind::Voltage);
     let domain = if choice.x == Kind::Frequency { Domain::Frequency } else { Domain::Time };
     let chosen = choice.ask.is_none();
-    (Reading { columns: choice.columns, domain, chosen, ..Reading::default() }, choice.ask)
+    let fitted = [true, false, false, false];
+    (Reading { columns: choice.columns, domain, chosen, fitted, ..Reading::default() }, choice.ask)
 }
 
 /// The end of a run as the text of a file, such as an instrument writes: time (s) and voltage (V).

@@ -3,8 +3,8 @@
 use egui::{RichText, Ui};
 use egui_plot::PlotPoint;
 
-use super::design::alignment;
 use super::design::measure::Measure;
+use super::design::{alignment, fitting};
 use super::spec::{Place, Spec};
 use super::{Context, grid};
 use crate::app::bench::measured::{Domain, File, Reading};
@@ -132,6 +132,7 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
             (Series::Linear, tr("without magnets")),
             (Series::Stable, tr("stable")),
             (Series::FromRest, tr("from rest")),
+            (Series::Best, tr("fitted")),
         ],
     );
     let (x, y) =
@@ -153,6 +154,7 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
         let starts = study.from_rest().iter().filter_map(|start| start.flatten());
         reached.extend(starts.map(|(_, point)| PlotPoint::new(point.frequency, point.measures.v_rms)));
     }
+    let fitted = fitting::curves(context, file);
     plot_style::plot(ui, ("measured", file.name.as_str(), 1), &x, &y).include_y(0.0).show(ui, |plot| {
         plot_style::series(plot, Series::Linear, tr("without magnets"), &linear);
         for run in &stable {
@@ -160,6 +162,8 @@ fn frequencies(context: &Context<'_>, ui: &mut Ui, file: &File) {
         }
         plot_style::points(plot, Series::FromRest, tr("from rest"), &reached);
         plot_style::points(plot, Series::Measured, tr("measured"), &file.drawn);
+        plot_style::series(plot, Series::Ghost, tr("start of the fit"), &fitted[0]);
+        plot_style::series(plot, Series::Best, tr("fitted"), &fitted[1]);
     });
 }
 
@@ -206,6 +210,10 @@ pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
     if let Some(file) = context.bench.measured.file.as_ref().filter(|file| file.measures.is_some()) {
         ui.add_space(grid::GAP);
         Card::new(tr("Compared")).hugging().show(ui, |ui| compared(context, ui, file));
+        if file.reading.domain == Domain::Frequency {
+            ui.add_space(grid::GAP);
+            Card::new(tr("Fit")).hugging().show(ui, |ui| fitting::controls(context, ui, file));
+        }
     }
 }
 

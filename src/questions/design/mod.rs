@@ -10,6 +10,7 @@ pub mod columns;
 pub mod error;
 pub mod evolution;
 pub mod find;
+pub mod fit;
 pub mod harvest;
 pub mod layout;
 pub mod linear;

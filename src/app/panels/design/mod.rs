@@ -4,6 +4,7 @@ pub(super) mod alignment;
 pub(super) mod bands;
 mod beside;
 mod best_load;
+pub(super) mod fitting;
 pub(super) mod going;
 mod held;
 mod limits;
