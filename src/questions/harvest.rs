@@ -16,6 +16,7 @@ use super::design::{
 };
 use super::error::{RequestError, failed};
 use super::question::Question;
+use super::rectifier::{Rectifier, RectifierAnswer};
 use super::response::{ResponseCurve, ResponsePoint, check_range, curve};
 use super::subject::ACCELERATION_UNIT;
 use super::sweep::{COUNTS, Direction, Sweep, SweepStudy};
@@ -46,6 +47,8 @@ pub struct Harvest {
     pub least: Option<f64>,
     /// What must be kept in the bands within limits; the voltage by the ceramic where none is given.
     pub limits: Limits,
+    /// A rectifier and a store in place of the load; none when absent.
+    pub rectifier: Option<Rectifier>,
     /// How long a frequency is held in a sweep; requests leave it as it is.
     #[serde(skip)]
     pub dwell: Dwell,
@@ -72,6 +75,9 @@ pub struct HarvestAnswer {
     /// At its own excitation.
     #[serde(flatten)]
     pub operating: Operating,
+    /// What goes into a store behind a rectifier, at its own excitation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rectified: Option<RectifierAnswer>,
     /// Over frequency, at its own amplitude of the base or of its acceleration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curves: Option<Curves>,
@@ -137,8 +143,9 @@ impl Question for Harvest {
         }
         self.limits.validate()?;
         let operating = operating(&scenario)?;
+        let rectified = self.rectifier.map(|rectifier| rectifier.answer(&scenario, budget)).transpose()?;
         let curves = self.frequency.map(|frequency| self.curves(scenario, frequency, budget)).transpose()?;
-        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, curves })
+        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, rectified, curves })
     }
 }
 

@@ -6,6 +6,8 @@ use super::shake::ShakeView;
 use crate::model::{Dimension, Limits, MAX_MODES, ModelError};
 use crate::questions::design::trust::Quantity;
 use crate::questions::find::GENERATIONS;
+pub use crate::questions::rectifier::DROPS;
+pub use crate::questions::tolerances::SCATTERS;
 use crate::scenario::counted;
 use crate::theory::Resonance;
 
@@ -24,6 +26,8 @@ pub enum Page {
     Trust,
     /// Maps and the search for a design.
     Search,
+    /// What the scatter of dimensions does.
+    Tolerances,
     /// Measured data over computed curves.
     Measured,
     /// Shaken by chirps and noise.
@@ -145,6 +149,10 @@ pub struct DesignView {
     pub window: Option<(f64, f64)>,
     /// Power (W) that counts as usable; half of the highest when absent.
     pub least: Option<f64>,
+    /// Forward drop of a rectifier's diode (V).
+    pub diode_drop: f64,
+    /// Standard deviation of every dimension, over its value.
+    pub scatter: f64,
     /// What must be kept. Its voltage is that of the ceramic where it is not given.
     pub limits: Limits,
     /// The mode that gets a ceramic's quality factor, from 1.
@@ -169,6 +177,8 @@ impl Default for DesignView {
             logarithmic: false,
             window: None,
             least: None,
+            diode_drop: 0.0,
+            scatter: 0.01,
             limits: Limits::default(),
             mode: 1,
             resonance: Resonance::First,
@@ -191,6 +201,8 @@ impl DesignView {
         if let Some(least) = self.least {
             ModelError::check("design.least", least, POWERS, " W")?;
         }
+        ModelError::check("design.diode_drop", self.diode_drop, DROPS, " V")?;
+        ModelError::check("design.scatter", self.scatter, SCATTERS, "")?;
         self.limits.validate()?;
         self.shake.check()?;
         counted("design.mode", self.mode, (1, MAX_MODES))?;

@@ -24,8 +24,10 @@ macro_rules! panels {
             Response response
             Harvest harvest
             Load load
+            Store store
             MagnetForce magnet_force
             DesignMap design_map
+            Tolerances tolerances
             Measured measured
             ShakenVoltage shaken_voltage
             ShakenSpectrum shaken_spectrum

@@ -156,6 +156,20 @@ impl Collocation {
         Self::prepared(system, Excitation::Signal(signal), initial, (grid, propagator, None), settings)
     }
 
+    /// As [`Self::from_phase`], with the voltage held at that of `initial`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn clamped(
+        system: &ReducedSystem,
+        initial: &[f64],
+        settings: Settings,
+    ) -> Result<Self, IntegrationError> {
+        let grid = Grid::new(system, 0.0);
+        let propagator = Propagator::new(&LinearPart::new(system).clamped(), grid.longest_step());
+        Self::prepared(system, Excitation::of(system), initial, (grid, propagator, None), settings)
+    }
+
     /// As [`Self::new`], where flow and tables of the longest step of `system` are there already.
     ///
     /// # Errors
@@ -211,6 +225,20 @@ impl Collocation {
         self.extended[..dimension].copy_from_slice(initial);
         self.excite();
         (self.settings, self.steps) = (settings, 0);
+        Ok(())
+    }
+
+    /// Begins anew as [`Self::restart`] does, with the excitation's `phase` (radians) at time 0 and steps as long as the last.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn begin_at(&mut self, initial: &[f64], phase: f64) -> Result<(), IntegrationError> {
+        let dimension = self.part.modes * 2 + 1;
+        check_state(initial, dimension)?;
+        self.grid.begin_at(phase);
+        self.extended[..dimension].copy_from_slice(initial);
+        self.excite();
+        self.steps = 0;
         Ok(())
     }
 

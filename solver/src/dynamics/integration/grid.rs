@@ -62,6 +62,12 @@ impl Grid {
         self.known.iter_mut().flatten().for_each(|known| known.refused = None);
     }
 
+    /// Goes back to time 0 with another `phase` (radians) of the excitation there; steps are as long as the last.
+    pub(super) fn begin_at(&mut self, phase: f64) {
+        (self.phase, self.periods, self.index, self.overtime) = (phase, 0, 0, 0.0);
+        self.known.clear();
+    }
+
     /// Present time (dimensionless).
     pub(super) fn time(&self) -> f64 {
         let whole = self.periods as f64 + self.index as f64 / self.steps_per_period() as f64;

@@ -87,6 +87,12 @@ impl LinearPart {
         }
     }
 
+    /// The same with the voltage held where it is, as at the store of a rectifier that conducts: dv/dt = 0.
+    #[must_use]
+    pub(super) fn clamped(self) -> Self {
+        Self { inverse_capacitance: 0.0, ..self }
+    }
+
     /// Length 2N + 1 of the state.
     pub fn dimension(&self) -> usize {
         2 * self.modes + 1

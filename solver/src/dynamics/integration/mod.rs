@@ -9,6 +9,8 @@
 //!   [`step`] is one of them as it is shown, `variation` its derivative.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`ongoing`] is a motion without an end, whose numbers may
 //!   change on the way; [`shaken`] is a motion under any shaking of the base.
+//! * [`rectified`] is a run with a rectifier in place of the load: two linear parts, and the instants at which one gives way
+//!   to the other.
 //! * `extremes` reads what lies between the nodes of steps, [`measures`] the numbers of a motion, [`summary`] a run while it
 //!   is computed.
 //!
@@ -23,6 +25,7 @@ pub mod node_map;
 pub mod ongoing;
 pub mod outcome;
 pub mod propagator;
+pub mod rectified;
 pub mod rk4;
 pub mod rule;
 pub mod shaken;

@@ -4,6 +4,7 @@ pub(super) mod alignment;
 pub(super) mod bands;
 mod beside;
 mod best_load;
+pub(super) mod fitting;
 pub(super) mod going;
 mod held;
 mod limits;
@@ -13,9 +14,11 @@ pub(super) mod optimum;
 pub(in crate::app) mod safety;
 pub(super) mod search;
 pub(super) mod shaking;
+mod store;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod tolerances;
 mod trust;
 
 use egui::Ui;
@@ -41,6 +44,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Page::Materials => materials::show(context, ui),
         Page::Trust => trust::show(context, ui),
         Page::Search => beside(context, ui, search::cards),
+        Page::Tolerances => beside(context, ui, tolerances::cards),
         Page::Measured => beside(context, ui, measured::cards),
         Page::Shake => {
             shaking::show(context, ui);
@@ -57,7 +61,7 @@ pub(in crate::app) fn ask(studies: &mut Studies, view: &View) {
         Page::Harvest => studies.load(view),
         Page::Materials => studies.tabulate(questions::materials(view)),
         Page::Trust => studies.tabulate(questions::trust(view)),
-        Page::Load | Page::Search | Page::Measured | Page::Shake => {}
+        Page::Load | Page::Search | Page::Tolerances | Page::Measured | Page::Shake => {}
     }
 }
 
@@ -68,6 +72,7 @@ fn choose(context: &mut Context<'_>, ui: &mut Ui) {
         (Page::Materials, tr("Materials")),
         (Page::Trust, tr("Trust")),
         (Page::Search, tr("Search")),
+        (Page::Tolerances, tr("Tolerances")),
         (Page::Measured, tr("Measured")),
         (Page::Shake, tr("Shake")),
     ];
