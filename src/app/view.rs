@@ -5,6 +5,7 @@ mod front;
 pub mod live;
 mod panel;
 mod salvage;
+pub mod shake;
 mod sweep;
 
 use serde::{Deserialize, Serialize};

@@ -16,6 +16,7 @@ use super::motions::Motions;
 use super::multiplier_chart::{Columns, MultiplierChart};
 use super::rectifier::{BestVoltage, OpenCircuit, Rectified, RectifierStudy};
 use super::request::Task;
+use super::shake::{AtLevel, ShakenRun};
 use super::sweep::{Stretch, SweepStudy};
 use super::tolerances::{Leaning, Meant, ToleranceStudy};
 use super::tongues::{Border, TongueStudy};
@@ -45,6 +46,7 @@ pub const TASKS: &[Task] = &[
     Task::of::<super::map::Map>(),
     Task::of::<super::tolerances::Tolerances>(),
     Task::of::<super::fit::Fit>(),
+    Task::of::<super::shake::Shake>(),
 ];
 
 /// What workers can do.
@@ -74,6 +76,8 @@ pub const HANDS: &[Hand] = &[
     Hand::of::<Meant>(),
     Hand::of::<Voltages>(),
     Hand::of::<Leaning>(),
+    Hand::of::<ShakenRun>(),
+    Hand::of::<AtLevel>(),
 ];
 
 fn lane<S: Study>(name: &'static str, first: Option<S>) -> (&'static str, Box<dyn Traffic>) {
@@ -108,6 +112,8 @@ pub fn lanes() -> Lanes {
         lane::<DesignMap>("map", None),
         lane::<ToleranceStudy>("tolerances", None),
         lane::<FitStudy>("fit", None),
+        lane::<Table<ShakenRun>>("shake", None),
+        lane::<Table<AtLevel>>("levels", None),
     ];
     Lanes::new(lanes, 4)
 }

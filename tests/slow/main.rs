@@ -19,6 +19,7 @@ mod lessons;
 mod motions;
 mod orbits;
 mod requests;
+mod shake;
 mod tasks;
 mod tips;
 mod verdict;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::shake::ShakeView;
 use crate::model::{Dimension, Limits, MAX_MODES, ModelError};
 use crate::questions::design::trust::Quantity;
 use crate::questions::find::GENERATIONS;
@@ -29,6 +30,8 @@ pub enum Page {
     Tolerances,
     /// Measured data over computed curves.
     Measured,
+    /// Shaken by chirps and noise.
+    Shake,
 }
 
 /// What is drawn over frequency.
@@ -160,6 +163,8 @@ pub struct DesignView {
     pub quantity: Quantity,
     /// What is searched.
     pub search: SearchView,
+    /// How the device is shaken on the page Shake.
+    pub shake: ShakeView,
 }
 
 impl Default for DesignView {
@@ -179,6 +184,7 @@ impl Default for DesignView {
             resonance: Resonance::First,
             quantity: Quantity::Power,
             search: SearchView::default(),
+            shake: ShakeView::default(),
         }
     }
 }
@@ -198,6 +204,7 @@ impl DesignView {
         ModelError::check("design.diode_drop", self.diode_drop, DROPS, " V")?;
         ModelError::check("design.scatter", self.scatter, SCATTERS, "")?;
         self.limits.validate()?;
+        self.shake.check()?;
         counted("design.mode", self.mode, (1, MAX_MODES))?;
         counted("design.search.generations", self.search.generations, GENERATIONS)?;
         for side in self.search.sides.iter().chain(&self.search.third) {

@@ -29,6 +29,10 @@ macro_rules! panels {
             DesignMap design_map
             Tolerances tolerances
             Measured measured
+            ShakenVoltage shaken_voltage
+            ShakenSpectrum shaken_spectrum
+            ShakenPower shaken_power
+            ShakenWith shaken_with
         }
     };
 }

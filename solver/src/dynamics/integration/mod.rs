@@ -8,7 +8,7 @@
 //!   nodes, [`tables`] what a step of one length needs, in part as [`node_map`]s; `grid` says where steps begin and end,
 //!   [`step`] is one of them as it is shown, `variation` its derivative.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`ongoing`] is a motion without an end, whose numbers may
-//!   change on the way.
+//!   change on the way; [`shaken`] is a motion under any shaking of the base.
 //! * [`rectified`] is a run with a rectifier in place of the load: two linear parts, and the instants at which one gives way
 //!   to the other.
 //! * `extremes` reads what lies between the nodes of steps, [`measures`] the numbers of a motion, [`summary`] a run while it
@@ -28,6 +28,7 @@ pub mod propagator;
 pub mod rectified;
 pub mod rk4;
 pub mod rule;
+pub mod shaken;
 pub mod step;
 pub mod summary;
 pub mod tables;
@@ -39,5 +40,6 @@ pub use measures::Measures;
 pub use ongoing::{Ongoing, Reach};
 pub use outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome, RunError};
 pub use rule::NODES;
+pub use shaken::Shaken;
 pub use step::Step;
 pub use trajectory::Trajectory;

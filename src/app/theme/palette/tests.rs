@@ -102,7 +102,11 @@ const PLOTS: [PlotOf; 16] = [
     PlotOf { name: "tolerances", lines: &[Numeric, Linear], marks: &[] },
     PlotOf { name: "store", lines: &[Stable, Linear, Best], marks: &[] },
     PlotOf { name: "load", lines: &[Linear, Stable, Unstable, Theory, Best], marks: &[Up, Beyond] },
-    PlotOf { name: "measured over frequency", lines: &[Linear, Stable, Best, Ghost], marks: &[FromRest, Measured] },
+    PlotOf {
+        name: "measured over frequency",
+        lines: &[Linear, Stable, Best, Ghost],
+        marks: &[FromRest, Measured],
+    },
     PlotOf { name: "spectrum", lines: &[Numeric], marks: &[] },
     PlotOf { name: "roles", lines: &[Numeric, Theory, Published, Coupled, Ghost], marks: &[Poincare] },
 ];
