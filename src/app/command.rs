@@ -76,8 +76,12 @@ pub(super) enum Command {
     Export(String, Format),
     /// Save a report on the device and its motion.
     Report,
-    /// Ask for a file to open: a scenario, or measured data.
+    /// Ask for a file to open: a scenario, measured data, or a lesson.
     OpenFile,
+    /// Fill the screen with the page, or end that.
+    FullScreen,
+    /// Record this part of the page, in parts of its sides, under this title, or end that.
+    Record(Option<(String, egui::Rect)>),
 }
 
 /// The commands of a frame.

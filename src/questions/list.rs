@@ -44,9 +44,9 @@ pub const TASKS: &[Task] = &[
     Task::of::<super::trust::Trust>(),
     Task::of::<super::find::Find>(),
     Task::of::<super::map::Map>(),
+    Task::of::<super::shake::Shake>(),
     Task::of::<super::tolerances::Tolerances>(),
     Task::of::<super::fit::Fit>(),
-    Task::of::<super::shake::Shake>(),
 ];
 
 /// What workers can do.
@@ -73,11 +73,11 @@ pub const HANDS: &[Hand] = &[
     Hand::of::<Fitted>(),
     Hand::of::<Entry>(),
     Hand::of::<Evaluate>(),
+    Hand::of::<ShakenRun>(),
+    Hand::of::<AtLevel>(),
     Hand::of::<Meant>(),
     Hand::of::<Voltages>(),
     Hand::of::<Leaning>(),
-    Hand::of::<ShakenRun>(),
-    Hand::of::<AtLevel>(),
 ];
 
 fn lane<S: Study>(name: &'static str, first: Option<S>) -> (&'static str, Box<dyn Traffic>) {
@@ -110,10 +110,10 @@ pub fn lanes() -> Lanes {
         lane::<Table<Entry>>("trust", None),
         lane::<FindStudy>("find", None),
         lane::<DesignMap>("map", None),
-        lane::<ToleranceStudy>("tolerances", None),
-        lane::<FitStudy>("fit", None),
         lane::<Table<ShakenRun>>("shake", None),
         lane::<Table<AtLevel>>("levels", None),
+        lane::<ToleranceStudy>("tolerances", None),
+        lane::<FitStudy>("fit", None),
     ];
     Lanes::new(lanes, 4)
 }

@@ -17,6 +17,8 @@ mod harvest;
 #[cfg(feature = "app")]
 mod lessons;
 mod motions;
+#[cfg(feature = "app")]
+mod opening;
 mod orbits;
 mod requests;
 mod shake;
