@@ -6,6 +6,7 @@ use harvester_lab::dynamics::attractors::sweep::Dwell;
 use harvester_lab::dynamics::bifurcations::curves::Line;
 use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{Axis, Plane};
+use harvester_lab::model::base_motion::BaseMotion;
 use harvester_lab::model::materials::Ceramic;
 use harvester_lab::model::{Along, Dimension, ForceLaw, Limits, Parameter, ParameterSet, Shaking};
 use harvester_lab::questions::answers::Solve;
@@ -24,6 +25,7 @@ use harvester_lab::questions::materials::Fitted;
 use harvester_lab::questions::motions::{Coordinate, MotionPlane, Motions};
 use harvester_lab::questions::multiplier_chart::Columns;
 use harvester_lab::questions::rectifier::{BestVoltage, OpenCircuit, Rectified};
+use harvester_lab::questions::shake::{AtLevel, ShakenRun};
 use harvester_lab::questions::sweep::Stretch;
 use harvester_lab::questions::tolerances::{Leaning, Meant};
 use harvester_lab::questions::tongues::Border;
@@ -77,6 +79,8 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
     let line = Line { along: 0, at: 0.01 };
     let crossings = Crossings { scenario: scenario.clone(), plane: plane(), line, doubled: false };
     let starts = crossings.carry_out().expect("starts");
+    let noise: BaseMotion =
+        serde_json::from_str(r#"{"kind":"noise","from":1,"to":5,"rms":0.01,"duration":20}"#).expect("noise");
     let mut names = vec![
         sent(&Solve { request: "{\"task\":\"modes\"}".to_owned() }),
         sent(&Deliver { scenario: scenario.clone() }),
@@ -159,6 +163,14 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
             dimensions: vec![(Dimension::TipMass, 6e-4)],
             frequencies: vec![2.8, 2.9],
         }),
+        sent(&ShakenRun {
+            scenario: question.scenario.clone(),
+            excitation: noise.clone(),
+            realisation: 1,
+            magnets: false,
+            points: 50,
+        }),
+        sent(&AtLevel { scenario: question.scenario.clone(), excitation: noise, realisations: 1 }),
         sent(&Evaluate { question, values: vec![1e-5] }),
     ];
     let mut known: Vec<&str> = HANDS.iter().map(|hand| hand.name).collect();

@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn a_straight_line_has_the_errors_of_the_textbook() {
-        // y = a + b x through (0, 1), (1, 3), (2, 4), (3, 4): a = 1.5, b = 1, s^2 = 0.75; errors by the closed forms
+        // y = a + b x through (0, 1), (1, 3), (2, 4), (3, 4): a = 1.5, b = 1, s^2 = 0.5; errors by the closed forms
         // s_b = s/sqrt(sum (x - mean)^2), s_a = s_b sqrt(mean of x^2).
         let (x, y) = ([0.0, 1.0, 2.0, 3.0], [1.0, 3.0, 4.0, 4.0]);
         let columns = [vec![1.0; 4], x.to_vec()];
@@ -114,7 +114,7 @@ mod tests {
         assert!((step[0] - 1.5).abs() < 1e-12 && (step[1] - 1.0).abs() < 1e-12, "{step:?}");
         let left: Vec<f64> = x.iter().zip(y).map(|(x, y)| step[0] + step[1] * x - y).collect();
         let errors = Normal::new(&left, &columns).standard_errors().expect("errors");
-        let slope = (0.75_f64 / 5.0).sqrt();
+        let slope = (0.5_f64 / 5.0).sqrt();
         assert!((errors[1] / slope - 1.0).abs() < 1e-12, "{errors:?}");
         assert!((errors[0] / (slope * 3.5_f64.sqrt()) - 1.0).abs() < 1e-12, "{errors:?}");
         let nothing = Normal::new(&residuals, &[vec![1.0; 4], vec![0.0; 4]]);

@@ -189,12 +189,24 @@ mod tests {
     #[test]
     fn points_are_spread_evenly_and_deviates_are_normal() {
         // The mean of a product over the cube is 2^-d, to better than a random sample of 2048 would tell.
-        for dimensions in [1, 2, 5] {
+        for dimensions in [1, 2] {
             let product = |index| evenly(index, dimensions).iter().product::<f64>();
             let mean = (0..2048).map(product).sum::<f64>() / 2048.0;
             let error = mean * 2_f64.powi(dimensions as i32) - 1.0;
             assert!(error.abs() < 0.004, "{dimensions}: {error}");
         }
+        // Shares of a half space in many dimensions, 0.3085 beyond half a deviation: over directions they are off by less
+        // than those of random samples, 0.0204 for 512 of them.
+        let points: Vec<Vec<f64>> = (0..512).map(|index| deviates(index, 16)).collect();
+        let mut squares = 0.0;
+        for j in 0..24 {
+            let weight = |k: usize| (1.3 * f64::from(j) + 0.7 * (k + 1) as f64 * f64::from(j + 1)).cos();
+            let size = (0..16).map(|k| weight(k).powi(2)).sum::<f64>().sqrt();
+            let along = |z: &Vec<f64>| z.iter().enumerate().map(|(k, z)| weight(k) * z).sum::<f64>();
+            let share = points.iter().filter(|z| along(z) > 0.5 * size).count() as f64 / 512.0;
+            squares += (share - 0.308_54).powi(2);
+        }
+        assert!((squares / 24.0).sqrt() < 0.75 * 0.0204, "{squares}");
         let (count, dimensions) = (4096, 12);
         let mut sums = vec![[0.0; 3]; dimensions];
         let mut between: f64 = 0.0;

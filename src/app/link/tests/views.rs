@@ -11,6 +11,7 @@ use crate::app::view::design::{
     Aim, DROPS, DesignView, FREQUENCIES, POWERS, Page, SCATTERS, SearchView, Side, Watched,
 };
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
+use crate::app::view::shake::ShakeView;
 use crate::app::view::{MapWindow, Output, Panel, SweepView, Tab, View};
 use crate::dynamics::attractors::sweep::Dwell;
 use crate::model::layers::Sheet;
@@ -184,6 +185,7 @@ fn design() -> impl Strategy<Value = DesignView> {
                 resonance,
                 quantity,
                 search,
+                shake: ShakeView::default(),
             }
         },
     )
