@@ -195,7 +195,14 @@ fn excited() -> [Device; 5] {
     let paper = Device { frequency: 2.835, ..Device::default() };
     let strong = Device { coupling: 8e-5, ..paper };
     let attracting = Device { repelling: false, magnet_distance: 0.45, frequency: 0.9, ..strong };
-    let body = Device { tip_mass: 5e-3, tip_inertia: 4e-5, tip_offset: 0.03, air_damping: 0.3, ..strong };
+    let body = Device {
+        tip_mass: 1e-3,
+        tip_inertia: 4e-5,
+        tip_offset: 0.03,
+        air_damping: 0.3,
+        frequency: 1.0,
+        ..strong
+    };
     [paper, strong, Device { viscosity: 1.731e6, ..strong }, attracting, body]
 }
 
