@@ -149,7 +149,25 @@ function missing() {
   return null;
 }
 
+// In the emulated phone of a browser's tools the canvas is observed in pixels of the desktop's screen, while the page is
+// told the phone's ratio: what the page is told is what counts.
+function countPixels() {
+  const entry = window.ResizeObserverEntry?.prototype;
+  const counted = entry && Object.getOwnPropertyDescriptor(entry, "devicePixelContentBoxSize");
+  if (!counted) return;
+  const get = function () {
+    const [own] = counted.get.call(this);
+    const [box] = this.contentBoxSize;
+    const [wide, high] = [box.inlineSize * devicePixelRatio, box.blockSize * devicePixelRatio];
+    if (Math.abs(own.inlineSize - wide) < 2 && Math.abs(own.blockSize - high) < 2) return [own];
+    const size = { inlineSize: { value: Math.round(wide) }, blockSize: { value: Math.round(high) } };
+    return [Object.create(ResizeObserverSize.prototype, size)];
+  };
+  Object.defineProperty(entry, "devicePixelContentBoxSize", { ...counted, get });
+}
+
 async function start() {
+  countPixels();
   const lacking = missing();
   if (lacking) {
     fail("This browser cannot show Harvester Lab", say("{name} is missing or switched off.").replace("{name}", lacking));

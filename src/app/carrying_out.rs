@@ -3,7 +3,7 @@
 use super::command::Command;
 use super::errand::Errand;
 use super::view::MapWindow;
-use super::{App, bench, figures};
+use super::{App, bench, exporting, figures};
 use crate::scenario::Scenario;
 
 impl App {
@@ -37,6 +37,11 @@ impl App {
             }
             Command::Measure(Some(reading)) => self.bench.measured.read(reading),
             Command::Measure(None) => self.bench.measured = bench::measured::Measured::default(),
+            Command::Fit => {
+                let asked =
+                    self.bench.measured.file.as_ref().map(|file| bench::measured::fit(file, &self.view));
+                self.bench.refusal = asked.and_then(|asked| self.crew.borrow_mut().studies.fit(asked).err());
+            }
             Command::MeasureRun => {
                 if let Some(shown) = &self.session.shown {
                     self.bench.measured.open("run.csv", bench::measured::record(shown).into_bytes());
@@ -62,7 +67,24 @@ impl App {
             Command::Export(title, format) => self.exports.push((title, format)),
             Command::Report => self.save_report(),
             Command::OpenFile => self.errands.push(Errand::Open),
+            Command::FullScreen => self.errands.push(Errand::FullScreen),
+            Command::Record(Some((title, part))) if !self.records => {
+                self.records = true;
+                self.errands.push(Errand::Record(exporting::file_name(&title), part));
+            }
+            Command::Record(_) => self.stop_recording(),
         }
+    }
+
+    fn stop_recording(&mut self) {
+        self.records = false;
+        self.errands.push(Errand::StopRecording);
+    }
+
+    /// Says that no clip has begun.
+    pub fn recording_failed(&mut self) {
+        self.records = false;
+        self.tell("This browser could not record the page.");
     }
 
     /// Computes and shows `scenario`; the window of the map follows it.

@@ -42,6 +42,8 @@ pub(super) enum Command {
     Find(bool),
     /// Read the file's columns so, or close it.
     Measure(Option<Reading>),
+    /// Begins to fit the device in view to the measured data.
+    Fit,
     /// Take the end of the run in view as if it were a file of measured data.
     MeasureRun,
     /// Load a figure of the paper.
@@ -74,8 +76,12 @@ pub(super) enum Command {
     Export(String, Format),
     /// Save a report on the device and its motion.
     Report,
-    /// Ask for a file to open: a scenario, or measured data.
+    /// Ask for a file to open: a scenario, measured data, or a lesson.
     OpenFile,
+    /// Fill the screen with the page, or end that.
+    FullScreen,
+    /// Record this part of the page, in parts of its sides, under this title, or end that.
+    Record(Option<(String, egui::Rect)>),
 }
 
 /// The commands of a frame.

@@ -26,6 +26,8 @@ pub enum Part {
     Verdict,
     /// The moving beam.
     Beam,
+    /// What drives the live run.
+    Live,
     /// A plot, or what the verdict rests on.
     Plot(Panel),
 }

@@ -15,6 +15,12 @@ pub enum Errand {
     Sound(Vec<f32>),
     /// Ask for a file, and pass it to [`super::App::open_file`].
     Open,
+    /// Fill the screen with the page, or end that.
+    FullScreen,
+    /// Record a part of the picture, by its place in parts of the whole, for a file of this name without ending.
+    Record(String, egui::Rect),
+    /// End that, and save it.
+    StopRecording,
     /// Fetch what this language needs, and pass it to [`super::App::learn`].
     Fetch(Language),
     /// Have the page's own markup in this language, with these texts by their English ones, as JSON.

@@ -1,6 +1,8 @@
 //! The lessons as the page follows them: what their buttons do.
 
 use super::App;
+use super::history::Hand;
+use super::lessons::LessonId;
 use super::lessons::course::{self, Action};
 use super::view::Tab;
 
@@ -25,6 +27,13 @@ impl App {
                 }
             }
             Action::Answer(answer) => self.course.note(&self.view).answer = Some(answer),
+            Action::Reveal => {
+                self.course.note(&self.view).revealed = true;
+                let question = course::step(&self.view).and_then(|step| step.question.as_ref());
+                if let Some(reveal) = question.and_then(|question| question.reveal.as_ref()) {
+                    self.set_view(reveal);
+                }
+            }
             Action::Leave => self.leave_lesson(),
             Action::Finish => {
                 if let Some(id) = self.view.lesson {
@@ -34,6 +43,20 @@ impl App {
                 (self.view.tab, self.view.enlarged) = (Tab::Lessons, None);
             }
         }
+    }
+
+    /// Begins a lesson at one of its steps, as one step of the history.
+    pub(super) fn begin_step(&mut self, id: LessonId, step: usize) {
+        self.history.begin_frame(Hand::default());
+        let before = self.moment();
+        self.follow_lesson(Action::Begin(id));
+        if step > 1 {
+            self.follow_lesson(Action::GoTo(step));
+        }
+        if before != self.moment() {
+            self.history.note(before, Hand::default());
+        }
+        self.follow();
     }
 
     fn leave_lesson(&mut self) {

@@ -4,6 +4,8 @@ use egui::style::ScrollAnimation;
 use egui::{Context, Id, Key, Modifiers, Popup, Ui};
 
 use super::command::{Command, Commands};
+use super::figures;
+use super::lessons::course::{self, Action};
 use super::live::LiveAction;
 use super::panels::spec::Place;
 use super::panels::{greeting, list, shortcuts};
@@ -43,6 +45,7 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
             (Modifiers::COMMAND, Key::Z, Command::Undo),
             (Modifiers::COMMAND, Key::S, Command::SaveFile),
             (Modifiers::COMMAND, Key::O, Command::OpenFile),
+            (Modifiers::SHIFT, Key::F, Command::FullScreen),
         ];
         for (modifiers, key, command) in steps {
             if input.consume_key(modifiers, key) {
@@ -70,6 +73,12 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
                 commands.push(command);
             }
         }
+        for (key, way) in [(Key::PageUp, -1), (Key::PageDown, 1)] {
+            // Before the slider that has the focus: a presenter's clicker knows no others.
+            if let Some(command) = presented(view, way).filter(|_| pressed(key)) {
+                commands.push(command);
+            }
+        }
         if view.tab == Tab::Live {
             let live = LIVE.iter().filter(|(key, _)| pressed(*key));
             commands.extend(live.map(|(_, action)| Command::Live(*action)));
@@ -85,6 +94,21 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
     if help {
         shortcuts::open(context);
     }
+}
+
+/// What a presenter's clicker leads to, forwards or back: the next step of the running lesson, or figure of the paper.
+fn presented(view: &View, way: i32) -> Option<Command> {
+    if let Some((_, lesson)) = course::running(view) {
+        let step = view.step.min(lesson.steps.len()).checked_add_signed(way as isize)?;
+        return Some(Command::Lesson(Action::GoTo(step.max(1))));
+    }
+    let place = figures::FIGURES.iter().position(|figure| figure.number == view.figure);
+    let next = match place {
+        _ if view.tab != Tab::Paper => return None,
+        Some(place) => place.checked_add_signed(way as isize)?,
+        None => 0,
+    };
+    figures::FIGURES.get(next).map(|figure| Command::LoadFigure(figure.number))
 }
 
 /// The plot after the one that fills the page; none after the last.

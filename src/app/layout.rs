@@ -30,6 +30,8 @@ pub(super) fn draw(context: &mut Context<'_>, notice: Option<&str>, ui: &mut Ui)
     }
     panels::lessons::guide(context, ui);
     if ui.available_width() < STACKED {
+        panels::on_top::show(context, ui);
+        panels::on_top::scroll_beneath(context, ui);
         let page = page.inner_margin(Margin { left: 12, right: 0, top: 10, bottom: 10 });
         egui::CentralPanel::default().frame(page).show(ui, |ui| {
             scrolled(ui, Some(tab), |ui| {
@@ -88,8 +90,10 @@ fn scrolled(ui: &mut Ui, tab: Option<Tab>, contents: impl FnOnce(&mut Ui)) {
     area.show(ui, |ui| {
         let margin = Margin { right: 12, ..Margin::ZERO };
         egui::Frame::new().inner_margin(margin).show(ui, |ui| {
-            keyboard::keep_focus_in_view(ui);
             contents(ui);
+            // Last, or what scrolls within would take it for its own.
+            keyboard::keep_focus_in_view(ui);
+            widgets::touch::scrolled(ui);
         });
     });
 }
@@ -129,11 +133,13 @@ mod tests {
             let mut desk = Desk::new(width, height, r#"{"scenario":{"t_end":100},"tab":"stability"}"#);
             desk.work(3);
             let button = |desk: &Desk| {
-                let found = |node: &&Node| node.label.starts_with("Enlarge: Stability chart");
+                // On a narrow page the plot stays, and the sliders move.
+                let label = if width > super::STACKED { "Enlarge: Stability chart" } else { "Damping" };
+                let found = |node: &&Node| node.label.starts_with(label);
                 desk.harness.nodes.iter().find(found).map(|node| node.bounds.top())
             };
             let top = button(&desk);
-            let at = egui::pos2(width - 100.0, 400.0);
+            let at = egui::pos2(width - 100.0, height - 120.0);
             let turn = egui::Event::MouseWheel {
                 unit: egui::MouseWheelUnit::Point,
                 delta: egui::vec2(0.0, -150.0),

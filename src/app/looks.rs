@@ -39,5 +39,7 @@ impl App {
             plot_style::views::another_device(context);
             self.device = Some(device);
         }
+        let step = self.view.lesson.map(|lesson| (lesson.number(), self.view.step));
+        plot_style::views::in_step(context, step);
     }
 }

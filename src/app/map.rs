@@ -13,6 +13,9 @@ use crate::theory::{CoupledModes, Published, Resonance};
 pub(super) const HALF_WIDTH: f64 = 0.6;
 /// How far a boundary is followed to either side of its resonance: as wide as the widest map shows it.
 const REACH: f64 = 1.6;
+/// How a boundary is followed beyond, and how often at most.
+const STEP: f64 = 0.1;
+const STEPS: usize = 80;
 /// Points of a boundary.
 const POINTS: usize = 241;
 
@@ -69,13 +72,29 @@ pub(super) struct Boundaries {
     pub gap: Option<f64>,
 }
 
+/// Goes on with a curve over frequency at both ends, see [`Tongue::followed`].
+fn follow(curve: &mut Vec<PlotPoint>, boundary: &dyn Fn(f64) -> Option<f64>) {
+    for step in [STEP, -STEP] {
+        for _ in 0..STEPS {
+            let Some(end) = curve.last().filter(|end| end.y < CEILINGS[CEILINGS.len() - 1]).copied() else {
+                break;
+            };
+            let omega = end.x + step;
+            let beta = boundary(omega).filter(|_| omega > 0.0).unwrap_or(f64::NAN);
+            curve.push(PlotPoint::new(omega, beta));
+        }
+        curve.reverse();
+    }
+}
+
 impl Boundaries {
     /// Computes the boundaries of `system`; its excitation plays no role.
     pub(super) fn new(structure: Scenario, system: &ReducedSystem) -> Self {
         let published = Published::new(system).ok();
         let coupled = CoupledModes::new(system).ok();
         let tongues = published.as_ref().map_or_else(Vec::new, |published| {
-            Resonance::ALL.map(|resonance| Tongue::new(resonance, REACH, published, coupled.as_ref())).into()
+            let tongue = |resonance| Tongue::new(resonance, REACH, published, coupled.as_ref());
+            Resonance::ALL.map(|resonance| tongue(resonance).followed(published, coupled.as_ref())).into()
         });
         let frequencies = system.modes.iter().map(|mode| mode.omega).collect();
         Self { structure, frequencies, tongues, published, coupled, gap: Plant::gap(system) }
@@ -122,6 +141,17 @@ impl Boundaries {
 }
 
 impl Tongue {
+    /// The same with its boundaries followed until they leave every map at the top, so that none ends in the middle of
+    /// one.
+    fn followed(mut self, published: &Published, coupled: Option<&CoupledModes>) -> Self {
+        let resonance = self.resonance;
+        follow(&mut self.published, &|omega| published.boundary(resonance, omega));
+        if let Some(coupled) = coupled {
+            follow(&mut self.coupled, &|omega| coupled.boundary(resonance, omega));
+        }
+        self
+    }
+
     /// The boundaries of one resonance; the coupled ones are empty without that theory.
     pub(super) fn new(
         resonance: Resonance,

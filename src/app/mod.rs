@@ -105,6 +105,8 @@ pub struct App {
     /// Cards to be saved at the end of this frame.
     exports: Vec<(String, Format)>,
     speech: Speech,
+    /// Whether a clip is being recorded.
+    records: bool,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool, bool)>,
     /// Whether the system asks for high contrast.
@@ -117,6 +119,8 @@ impl App {
     /// A new application with its `crew`, continuing what an earlier session `stored` when that is valid.
     pub fn new(context: &egui::Context, stored: Option<&str>, crew: Rc<RefCell<Crew>>) -> Self {
         fonts::install(context, None);
+        // A tap is one however long a slow picture takes.
+        context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
         let (view, notice) = View::restore(stored);
         let mut session = Session::default();
         session.ask(&view.scenario);
@@ -138,6 +142,7 @@ impl App {
             exports,
             styled: None,
             speech: Speech::default(),
+            records: false,
             system_contrast: false,
             device: None,
         };
@@ -214,6 +219,7 @@ impl App {
     /// Leaves those events out that belong to the browser.
     pub fn sift(&self, context: &egui::Context, events: &mut Vec<egui::Event>) {
         events.retain(|event| !matches!(event, egui::Event::MouseWheel { .. }) || self.keeps(context, event));
+        widgets::touch::part_taps(context, events);
         widgets::touch::end_cancelled(events, context.input(|input| input.pointer.latest_pos()));
     }
 
@@ -262,6 +268,8 @@ impl App {
             address: &self.address,
             embed: self.embed.as_ref(),
             steps: self.history.can(),
+            records: self.records,
+            on_top: None,
             commands,
         };
         layout::draw(&mut context, self.notice.as_deref(), ui);
@@ -269,7 +277,15 @@ impl App {
 
     /// Lets the live run go on and be heard.
     fn go_on(&mut self, context: &egui::Context) {
-        if self.live.frame(context.input(|input| input.time), &self.view) {
+        let live = |panel: &view::Panel| panels::list::spec(*panel).place.tab() == Tab::Live;
+        let in_sight = match &self.embed {
+            Some(embed) => {
+                embed.parts.contains(&embed::Part::Live)
+                    || view::Panel::ALL.iter().any(|panel| live(panel) && embed.shows(*panel))
+            }
+            None => self.view.tab == Tab::Live,
+        };
+        if self.live.frame(context.input(|input| input.time), &self.view, in_sight) {
             context.request_repaint();
         }
         self.errands.extend(self.live.chunk().map(Errand::Sound));

@@ -2,7 +2,7 @@
 
 use super::map::{self, Boundaries};
 use super::session::Session;
-use super::view::{SweepView, View};
+use super::view::{MapWindow, SweepView, View};
 use crate::dynamics::bifurcations::tongue::Window;
 use crate::model::{Along, Parameter, ParameterSet};
 use crate::questions::basin::Basin;
@@ -19,6 +19,8 @@ const MOTIONS: (usize, usize) = (80, 60);
 const BASIN: usize = 64;
 /// Half the width of the window in which exact tongues are traced: a little more than a map shows.
 const TONGUE_SPAN: f64 = 0.8;
+/// The same where a map shows all of them, so that they end where the motion does, not in the middle of it.
+const WHOLE_TONGUE_SPAN: f64 = 3.5;
 /// Upper ends of that window: the lowest one above what the map shows is taken.
 const TONGUE_LIMITS: [f64; 2] = [0.04, 0.2];
 /// A structural parameter is swept from its value over this to its value times this.
@@ -45,7 +47,8 @@ pub(super) fn chart(view: &View, boundaries: &Boundaries) -> (Scenario, Chart) {
 pub(super) fn tongues(view: &View) -> (Scenario, Window) {
     let ceiling = map::ceiling(view.map, view.scenario.parameters.beta);
     let limit = TONGUE_LIMITS.into_iter().find(|limit| *limit >= ceiling).unwrap_or(TONGUE_LIMITS[1]);
-    (map::structure(&view.scenario), Window { span: TONGUE_SPAN, limit })
+    let span = if view.map == MapWindow::All { WHOLE_TONGUE_SPAN } else { TONGUE_SPAN };
+    (map::structure(&view.scenario), Window { span, limit })
 }
 
 /// The basins of the scenario in view, whatever its start.

@@ -1,15 +1,21 @@
 //! Links and scenario files: what goes out of the page, and what comes in.
 
+use serde_json::Value;
+
 use super::App;
+use super::command::Command;
 use super::errand::Errand;
-use super::lessons::course;
+use super::history::Hand;
+use super::lessons::check::checked;
+use super::lessons::{LessonId, course};
 use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
 use crate::app::text::fill;
-use crate::questions::design::measured::{self, MeasuredError};
+use crate::questions::design::measured;
 use crate::questions::input::{self, NoText};
-use crate::sentence::{Say as _, Sentence, said};
+use crate::scenario::Scenario;
+use crate::sentence::{Sentence, said};
 
 /// Name of saved files.
 const FILE_NAME: &str = "harvester-scenario.json";
@@ -38,6 +44,18 @@ fn is_scenario(name: &str, contents: &[u8]) -> bool {
     name.to_ascii_lowercase().ends_with(".json") || matches!(first, Some(b'{'))
 }
 
+/// The text of a file that may hold a scenario.
+fn text_of(bytes: Vec<u8>) -> Result<String, Sentence> {
+    let text = input::text(&bytes).map_err(|problem| match problem {
+        NoText::Utf16 => said("it is UTF-16 text: save it as UTF-8", &[]),
+        NoText::Other => said("it is not a text", &[]),
+    })?;
+    if !text.trim_start().starts_with('{') {
+        return Err(said("it is not a scenario, which begins with {", &[]));
+    }
+    Ok(text.to_owned())
+}
+
 impl App {
     /// Tells the address of the page, to which links lead.
     pub fn set_address(&mut self, address: String) {
@@ -52,6 +70,38 @@ impl App {
     /// The view in a link, without the `#`. Its looks are left out: they suit this room.
     pub fn fragment(&self) -> String {
         link::write(&self.view.clone().with_looks_of(&View::default()))
+    }
+
+    /// The place in the page, for the browser's buttons back and forward: tab, figure, lesson and step.
+    pub fn whereabouts(&self) -> String {
+        let View { tab, figure, lesson, step, .. } = self.view;
+        link::write(&View { scenario: Scenario::default(), tab, figure, lesson, step, ..View::default() })
+    }
+
+    /// Goes to such a place; a figure or a step of a lesson sets the page as it does.
+    pub fn return_to(&mut self, place: &str) {
+        let (view, _) = link::read(place, &self.view);
+        self.history.begin_frame(Hand::default());
+        let before = self.moment();
+        if (view.lesson, view.step) != (self.view.lesson, self.view.step) {
+            match view.lesson {
+                Some(id) if self.view.lesson != Some(id) => self.follow_lesson(course::Action::Begin(id)),
+                Some(_) => {}
+                None => self.follow_lesson(course::Action::Leave),
+            }
+            if view.lesson.is_some() {
+                self.follow_lesson(course::Action::GoTo(view.step));
+            }
+        }
+        if view.lesson.is_none() && view.figure != self.view.figure {
+            self.carry_out(Command::LoadFigure(view.figure));
+        }
+        (self.view.tab, self.view.enlarged) =
+            (view.tab, self.view.enlarged.filter(|_| view.tab == self.view.tab));
+        if before != self.moment() {
+            self.history.note(before, Hand::default());
+        }
+        self.follow();
     }
 
     /// Shows what the fragment of an address asks for, as one step, and says what of it was not usable.
@@ -77,18 +127,44 @@ impl App {
             Ok(bytes) if !is_scenario(name, &bytes) => return self.import(name, bytes),
             contents => contents,
         };
-        match contents.and_then(|bytes| self.read_file(bytes)) {
+        let text = match contents.and_then(text_of) {
+            Ok(text) => text,
+            Err(reason) => return self.tell_unopened(name, &reason),
+        };
+        // A lesson is known by its steps, a scenario has none but a number.
+        let steps = serde_json::from_str::<Value>(&text).ok().and_then(|value| value.get("steps").cloned());
+        if steps.is_some() {
+            return self.open_lesson(name, &text);
+        }
+        match View::read(&text, &self.view).map(|view| view.with_looks_of(&self.view)) {
             Ok(view) => {
                 self.notice = None;
                 self.replace(view, false);
             }
-            Err(reason) => {
-                self.notice = Some(fill(
-                    "{name} could not be opened: {reason}. Nothing was changed.",
-                    &[("name", &name), ("reason", &reason)],
-                ));
-            }
+            Err(reason) => self.tell_unopened(name, &reason),
         }
+    }
+
+    /// Begins a lesson of one's own from the text of its file, as one step, or goes to the step of it that a link has
+    /// asked for. What is wrong with it is told, and changes nothing.
+    pub fn open_lesson(&mut self, name: &str, text: &str) {
+        match checked(text) {
+            Ok(lesson) => {
+                self.notice = None;
+                let own = LessonId::bring(lesson);
+                let step = if self.view.lesson == Some(own) { self.view.step } else { 1 };
+                self.begin_step(own, step);
+            }
+            Err(reason) => self.tell_unopened(name, &reason),
+        }
+    }
+
+    /// Says why a file could not be opened.
+    pub fn tell_unopened(&mut self, name: &str, reason: &Sentence) {
+        self.notice = Some(fill(
+            "{name} could not be opened: {reason}. Nothing was changed.",
+            &[("name", &name), ("reason", reason)],
+        ));
     }
 
     fn import(&mut self, name: &str, text: Vec<u8>) {
@@ -97,17 +173,6 @@ impl App {
         view.design.page = Page::Measured;
         self.replace(view, false);
         self.bench.measured.open(name, text);
-    }
-
-    fn read_file(&self, bytes: Vec<u8>) -> Result<View, Sentence> {
-        let text = input::text(&bytes).map_err(|problem| match problem {
-            NoText::Utf16 => MeasuredError::Utf16.say(),
-            NoText::Other => said("it is not a text", &[]),
-        })?;
-        if !text.trim_start().starts_with('{') {
-            return Err(said("it is not a scenario, which begins with {", &[]));
-        }
-        Ok(View::read(text, &self.view)?.with_looks_of(&self.view))
     }
 
     pub(super) fn save_file(&mut self) {
@@ -122,8 +187,6 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::command::Command;
-    use crate::app::history::Hand;
     use crate::app::rehearsal;
     use crate::app::view::MapWindow;
     use crate::model::Parameter;
@@ -206,6 +269,61 @@ mod tests {
     }
 
     #[test]
+    fn back_and_forward_lead_to_tabs_figures_and_steps() {
+        let mut app = app();
+        let mut places = vec![app.whereabouts()];
+        let lesson = LessonId::named("torus").expect("a lesson");
+        for command in [
+            Command::OpenTab(Tab::Sweep),
+            Command::OpenTab(Tab::Paper),
+            Command::LoadFigure(4),
+            Command::Lesson(course::Action::Begin(lesson)),
+            Command::Lesson(course::Action::GoTo(2)),
+            Command::Lesson(course::Action::Leave),
+        ] {
+            do_it(&mut app, command);
+            places.push(app.whereabouts());
+        }
+        for place in places.iter().rev().chain(&places) {
+            app.return_to(place);
+            assert_eq!(app.whereabouts(), *place);
+        }
+        app.return_to(&places[3]);
+        assert_eq!((app.view.tab, app.view.figure, app.view.lesson), (Tab::Paper, 4, None));
+        app.return_to(&places[5]);
+        assert_eq!((app.view.lesson, app.view.step), (Some(lesson), 2));
+        // Numbers are not taken back.
+        app.view.scenario.parameters.beta = 0.003;
+        app.return_to(&places[1]);
+        app.return_to(&places[0]);
+        assert_eq!(app.view.scenario.parameters.beta, 0.003);
+    }
+
+    #[test]
+    fn a_lesson_of_ones_own_begins_and_a_broken_one_is_explained() {
+        let mut app = app();
+        let before = app.view.clone();
+        let lesson = r#"{"title":"Mine","summary":"s","minutes":1,"steps":[
+            {"text":"one","view":"v=1&omega=9&force=exact"},{"text":"two","view":"v=1&omega=10"}]}"#;
+        app.open_file("mine.json", Ok(lesson.replace("omega=9", "omeag=9").into_bytes()));
+        let notice = app.notice.take().expect("a notice");
+        assert!(notice.contains("mine.json could not be opened: steps 1, view: omeag = 9"), "{notice}");
+        assert_eq!(app.view, before);
+        app.open_file("mine.json", Ok(lesson.to_owned().into_bytes()));
+        assert_eq!(app.notice, None);
+        assert_eq!((app.view.lesson, app.view.step), (Some(LessonId::own()), 1));
+        assert_eq!(app.view.scenario.parameters.omega, 9.0);
+        // Again, as after a change in its file: it goes on where it was.
+        do_it(&mut app, Command::Lesson(course::Action::GoTo(2)));
+        app.open_lesson("mine.json", lesson);
+        assert_eq!((app.view.step, app.view.scenario.parameters.omega), (2, 10.0));
+        for _ in 0..4 {
+            app.undo();
+        }
+        assert_eq!(app.view, before);
+    }
+
+    #[test]
     fn what_is_no_text_is_refused_by_its_beginning() {
         let mut app = app();
         let before = app.view.clone();
@@ -215,12 +333,12 @@ mod tests {
             ("one.csv", vec![b'1'; FIRST], 50_000_000, "line 1 is longer"),
             ("run.csv", row(100), 500_000_000, "larger than 64 MB"),
             ("view.json", b"{".to_vec(), 50_000_000, "too large for a scenario"),
-            ("old.csv", b"\xff\xfe1\0,\0".to_vec(), 6, "UTF-16"),
         ] {
             let reason = look(name, &first, size).expect_err("unfit");
             assert!(reason.to_string().contains(part), "{reason}");
         }
         assert_eq!(look("good.csv", &row(100), 60_000_000), Ok(()));
+        assert_eq!(look("old.csv", b"\xff\xfe1\0,\0", 6), Ok(()));
         app.open_file("sound.wav", Ok(b"RIFF\0\0".to_vec()));
         let notice = app.notice.take().expect("a notice");
         assert!(notice.starts_with("sound.wav could not be opened: it is no text"), "{notice}");

@@ -14,7 +14,7 @@ use super::moment::Moment;
 use super::view::View;
 
 impl App {
-    fn moment(&self) -> Moment {
+    pub(super) fn moment(&self) -> Moment {
         let view = self.view.clone().with_looks_of(&View::default());
         Moment { view, pinned: self.session.pinned.clone() }
     }

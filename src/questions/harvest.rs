@@ -16,6 +16,7 @@ use super::design::{
 };
 use super::error::{RequestError, failed};
 use super::question::Question;
+use super::rectifier::{Rectifier, RectifierAnswer};
 use super::response::{ResponseCurve, ResponsePoint, check_range, curve};
 use super::subject::ACCELERATION_UNIT;
 use super::sweep::{COUNTS, Direction, Sweep, SweepStudy};
@@ -47,6 +48,8 @@ pub struct Harvest {
     pub least: Option<f64>,
     /// What must be kept in the bands within limits; the voltage by the ceramic where none is given.
     pub limits: Limits,
+    /// A rectifier and a store in place of the load; none when absent.
+    pub rectifier: Option<Rectifier>,
     /// How long a frequency is held in a sweep; requests leave it as it is.
     #[serde(skip)]
     pub dwell: Dwell,
@@ -73,6 +76,9 @@ pub struct HarvestAnswer {
     /// At its own excitation.
     #[serde(flatten)]
     pub operating: Operating,
+    /// What goes into a store behind a rectifier, at its own excitation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rectified: Option<RectifierAnswer>,
     /// What the layers of the device decide, or else was given for it; absent where the request is about numbers.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub laminate: Option<Laminate>,
@@ -141,9 +147,10 @@ impl Question for Harvest {
         }
         self.limits.validate()?;
         let operating = operating(&scenario)?;
+        let rectified = self.rectifier.map(|rectifier| rectifier.answer(&scenario, budget)).transpose()?;
         let laminate = scenario.laminate()?;
         let curves = self.frequency.map(|frequency| self.curves(scenario, frequency, budget)).transpose()?;
-        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, laminate, curves })
+        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, rectified, laminate, curves })
     }
 }
 

@@ -139,16 +139,15 @@ fn on_a_phone_a_finger_on_a_plot_scrolls_the_page() {
     let mut page = Page::open(390, 760, Theme::Light);
     page.touches();
     page.reload();
-    page.find("Enlarge: ", &["Button"]);
+    page.find("Export: Stability", &["Button"]);
     let state = page.state();
-    let card = |page: &mut Page| page.find("Enlarge: Stability", &["Button"]).bounds[1];
-    let before = card(&mut page);
+    let before = page.slider("Damping").bounds[1];
     // The browser of this test still claims to have a mouse: the first touch tells otherwise.
     page.wait("the page to scroll", |page| {
-        page.swipe((330.0, 720.0), (330.0, 320.0));
+        page.swipe((330.0, 320.0), (330.0, 160.0));
         let controls = page.controls();
-        let card = controls.iter().find(|control| control.label.starts_with("Enlarge: Stability"));
-        card.is_none_or(|card| card.bounds[1] < before - 150.0).then_some(())
+        let slider = controls.iter().find(|control| control.label == "Damping");
+        slider.is_none_or(|slider| slider.bounds[1] < before - 100.0).then_some(())
     });
     assert_eq!(page.state()["view"], state["view"]);
     page.screenshot("phone-swiped");

@@ -52,16 +52,20 @@ fn a_lesson_is_played_to_its_end_and_remembered() {
     wait_for_step(&mut page, "first-tongue", 3);
 
     // By answering, wrong at first; and one can go on without doing what is asked.
-    press(&mut page, "At 0.0042");
-    page.find("It would be if", &["Label"]);
+    // Nothing is said about a prediction before it is shown what comes.
+    page.find("Predict first", &["Label"]);
     press(&mut page, "At 0.00070");
-    page.find("Right.", &["Label"]);
+    press(&mut page, "At 0.0042");
+    press(&mut page, "Show what comes");
+    page.wait_until("what comes", |state| state["view"]["scenario"]["parameters"]["alpha"] == 1e-3);
+    page.find("It would be if", &["Label"]);
+    page.screenshot("lesson-predicted");
     press(&mut page, "Next");
     wait_for_step(&mut page, "first-tongue", 4);
     page.wait_until("another tab", |state| state["view"]["tab"] == "stability");
     press(&mut page, "Back");
     wait_for_step(&mut page, "first-tongue", 3);
-    page.find("Right.", &["Label"]);
+    page.find("It would be if", &["Label"]);
     page.keys(&[CONTROL], 'z');
     wait_for_step(&mut page, "first-tongue", 4);
     press(&mut page, "Finish");

@@ -17,6 +17,7 @@ mod live;
 mod mirror;
 mod offline;
 mod page;
+mod phone;
 mod server;
 mod share;
 mod stability;

@@ -17,8 +17,11 @@ mod harvest;
 #[cfg(feature = "app")]
 mod lessons;
 mod motions;
+#[cfg(feature = "app")]
+mod opening;
 mod orbits;
 mod requests;
+mod shake;
 mod tasks;
 mod tips;
 mod verdict;

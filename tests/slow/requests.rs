@@ -27,6 +27,9 @@ fn smallest(task: &str) -> Map<String, Value> {
             "x": {"name": "frequency", "from": 8, "to": 9, "count": 2},
             "y": {"name": "resistance", "from": 1e6, "to": 1e7, "count": 2},
         }),
+        "shake" => json!({
+            "excitation": {"kind": "chirp", "from": 1, "to": 2, "duration": 2, "acceleration": 0.001},
+        }),
         _ => json!({}),
     };
     let Value::Object(mut fields) = further else { panic!("an object") };

@@ -1,6 +1,7 @@
 //! Section 2 of the paper, in its order: device, parameters, magnet, modes, the reduced system.
 
 mod along;
+pub mod base_motion;
 pub mod choice;
 pub mod damping;
 pub mod device;

@@ -32,6 +32,18 @@ pub(super) fn run(errand: &Errand) {
             Some(())
         }
         Errand::Open => open(),
+        Errand::FullScreen => {
+            shell::full_screen();
+            Some(())
+        }
+        Errand::Record(name, part) => {
+            wasm_bindgen_futures::spawn_local(record(name.clone(), *part));
+            Some(())
+        }
+        Errand::StopRecording => {
+            shell::stop();
+            Some(())
+        }
         Errand::Fetch(language) => {
             wasm_bindgen_futures::spawn_local(learn(*language));
             Some(())
@@ -53,6 +65,24 @@ async fn picture(name: String, drawing: String, scale: u8) {
     if wasm_bindgen_futures::JsFuture::from(drawn).await.is_err() {
         change(|app, _| app.tell("This browser could not make the picture. SVG and CSV need no help of it."));
     }
+}
+
+/// Begins a clip, and says when the browser does not.
+async fn record(name: String, part: egui::Rect) {
+    let begun = shell::record(&name, part.left(), part.top(), part.width(), part.height());
+    if wasm_bindgen_futures::JsFuture::from(begun).await.is_err() {
+        change(|app, _| app.recording_failed());
+    }
+}
+
+/// Fetches the lesson that the address names, and begins it.
+pub(super) async fn begin_lesson(name: String) {
+    let fetched = wasm_bindgen_futures::JsFuture::from(shell::fetch_lesson(&name)).await;
+    let text = fetched.ok().and_then(|text| text.as_string());
+    change(|app, _| match &text {
+        Some(text) => app.open_lesson(&name, text),
+        None => app.tell_unopened(&name, &said("this site has no such file", &[])),
+    });
 }
 
 /// Fetches what a language needs.

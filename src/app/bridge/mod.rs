@@ -173,6 +173,13 @@ impl Page {
         }));
         open_address();
         address::watch(open_address);
+        if !embedded {
+            address::watch_places(|place| change(|app, _| app.return_to(place)));
+            crate::app::widgets::card::offer_clips(context, shell::can_record());
+        }
+        if let Some(name) = address::lesson() {
+            wasm_bindgen_futures::spawn_local(files::begin_lesson(name));
+        }
         Self { app, keeper, mirror: mirror::Mirror::default(), recorder, contrast, look: None, shown: false }
     }
 }
@@ -201,6 +208,9 @@ impl eframe::App for Page {
         if !self.shown && !self.app.borrow().awaits_words() {
             self.shown = true;
             shell::ready();
+        }
+        if !self.app.borrow().is_embedded() {
+            address::visit(self.app.borrow().whereabouts());
         }
         self.mirror.tick(&self.app.borrow(), ui.ctx());
     }

@@ -1,4 +1,4 @@
-//! The calls into the script of the page (`start.js`, `picture.js` and `sound.js` of `assets/shell`).
+//! The calls into the script of the page (`start.js`, `picture.js`, `sound.js` and `stage.js` of `assets/shell`).
 
 use js_sys::Promise;
 use wasm_bindgen::JsValue;
@@ -37,6 +37,26 @@ extern "C" {
     /// Plays samples after those before them, at `rate` samples a second; none ends the sound.
     #[wasm_bindgen(js_name = harvesterPlay)]
     pub(super) fn play(samples: &[f32], rate: f64);
+
+    /// Fills the screen with the page, or ends that.
+    #[wasm_bindgen(js_namespace = harvesterStage, js_name = fullScreen)]
+    pub(super) fn full_screen();
+
+    /// Whether clips can be recorded.
+    #[wasm_bindgen(js_namespace = harvesterStage, js_name = canRecord)]
+    pub(super) fn can_record() -> bool;
+
+    /// Records a part of the canvas, given as fractions of its sides, for a file of this name.
+    #[wasm_bindgen(js_namespace = harvesterStage)]
+    pub(super) fn record(name: &str, left: f32, top: f32, width: f32, height: f32) -> Promise;
+
+    /// Ends that, and saves it.
+    #[wasm_bindgen(js_namespace = harvesterStage)]
+    pub(super) fn stop();
+
+    /// The text of a lesson of this site.
+    #[wasm_bindgen(js_namespace = harvesterStage, js_name = fetchLesson)]
+    pub(super) fn fetch_lesson(name: &str) -> Promise;
 
     /// A new worker that has been told to run this (compiled) `module`, or null.
     #[wasm_bindgen(js_namespace = harvesterShell)]

@@ -130,7 +130,7 @@ fn drawing(figures: &[Figure], provenance: &Provenance) -> String {
 }
 
 /// The name of a card as that of a file.
-fn file_name(title: &str) -> String {
+pub(super) fn file_name(title: &str) -> String {
     let mut name = "harvester".to_owned();
     for word in
         title.to_lowercase().split(|letter: char| !letter.is_alphanumeric() && letter != '₁' && letter != '₂')

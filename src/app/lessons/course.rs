@@ -24,6 +24,8 @@ pub(in crate::app) enum Action {
     Show,
     /// Choose an answer, from 0.
     Answer(usize),
+    /// Show what comes of what was predicted.
+    Reveal,
     /// Leave the lesson; the page stays as it is.
     Leave,
     /// Leave it by its end.
@@ -37,6 +39,8 @@ pub(in crate::app) struct Progress {
     pub reached: bool,
     /// The answer chosen last, from 0.
     pub answer: Option<usize>,
+    /// Whether it was shown what comes of it.
+    pub revealed: bool,
 }
 
 /// What is remembered of the lessons beside the view.
@@ -61,7 +65,9 @@ impl Course {
 
     /// Adds what is to be stored to the stored view.
     pub(in crate::app) fn store(&self, view: &mut Value) {
-        let names: Vec<&str> = self.finished.iter().map(|id| id.name()).collect();
+        // Another file may be brought next time.
+        let ours = self.finished.iter().filter(|id| **id != LessonId::own());
+        let names: Vec<&str> = ours.map(|id| id.name()).collect();
         if let Some(entries) = view.as_object_mut().filter(|_| !names.is_empty()) {
             entries.insert(FINISHED.to_owned(), Value::from(names));
         }
@@ -208,7 +214,10 @@ mod tests {
         act(&mut app, Action::GoTo(1));
         assert_eq!(app.course.progress(&app.view), Progress::default());
         act(&mut app, Action::GoTo(4));
-        assert_eq!(app.course.progress(&app.view), Progress { reached: true, answer: Some(1) });
+        assert_eq!(
+            app.course.progress(&app.view),
+            Progress { reached: true, answer: Some(1), revealed: false }
+        );
         // What was done in one lesson is not done in another, nor when it begins again.
         act(&mut app, Action::Begin(tongue()));
         assert_eq!(app.course.progress(&app.view), Progress::default());

@@ -1,13 +1,17 @@
-//! What a lesson's file holds. `tests/slow/lessons/` runs every step; what it checks beside (`claims`) the page ignores.
+//! What a lesson's file holds. `tests/slow/lessons/` runs every step of ours; what it checks beside (`claims`) the page
+//! ignores.
 //!
-//! Read by hand: derived readers of these types would weigh as much in the page as all the lessons.
+//! Read by hand: derived readers of these types would weigh as much in the page as all the lessons, and would not say so
+//! well what is wrong with a lesson of one's own.
 
 use std::collections::BTreeMap;
 
 use serde_json::Value;
 
 use super::condition::Condition;
+use super::part::{Part, Read};
 use crate::app::text::language;
+use crate::sentence::said;
 
 /// A text by language; `**` begins and ends what is set in bold.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +21,26 @@ impl Text {
     /// In the page's language, else in English.
     pub fn get(&self) -> &str {
         self.0.get(language().code()).or_else(|| self.0.get("en")).map_or("", String::as_str)
+    }
+
+    /// Texts by language, or one in English.
+    fn read(part: &Part<'_>) -> Read<Self> {
+        let texts: BTreeMap<String, String> = match part.value {
+            Value::String(text) => BTreeMap::from([("en".to_owned(), text.clone())]),
+            Value::Object(texts) => texts
+                .iter()
+                .map(|(language, text)| Some((language.clone(), text.as_str()?.to_owned())))
+                .collect::<Option<_>>()
+                .unwrap_or_default(),
+            _ => BTreeMap::new(),
+        };
+        if !texts.contains_key("en") {
+            return part.wants(|at| said("{at} must be a text, or texts by language of which one is en", at));
+        }
+        if texts.values().any(|text| text.matches("**").count() % 2 == 1) {
+            return part.wants(|at| said("{at} has ** that begin bold words and do not end them", at));
+        }
+        Ok(Self(texts))
     }
 }
 
@@ -29,29 +53,33 @@ pub struct Lesson {
     pub summary: Text,
     /// How long it takes.
     pub minutes: u32,
+    /// Lines drawn beside its title, from 0 to 99 across and up.
+    pub picture: Vec<Vec<[u8; 2]>>,
     /// Its steps, in order.
     pub steps: Vec<Step>,
 }
 
-impl Text {
-    fn read(value: &Value) -> Option<Self> {
-        let texts = value.as_object()?.iter();
-        texts
-            .map(|(language, text)| Some((language.clone(), text.as_str()?.to_owned())))
-            .collect::<Option<_>>()
-            .map(Self)
-    }
-}
-
 impl Lesson {
-    /// Reads a file; `None` when something is missing or of another kind.
-    pub(super) fn read(json: &str) -> Option<Self> {
-        let value: Value = serde_json::from_str(json).ok()?;
-        Some(Self {
-            title: Text::read(&value["title"])?,
-            summary: Text::read(&value["summary"])?,
-            minutes: u32::try_from(value["minutes"].as_u64()?).ok()?,
-            steps: list(&value["steps"], Step::read)?,
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// What is wrong, and where.
+    pub fn read(json: &str) -> Read<Self> {
+        let value: Value = serde_json::from_str(json).map_err(|error| {
+            let place: [(&str, &dyn crate::sentence::Say); 2] =
+                [("line", &error.line()), ("column", &error.column())];
+            said("it is no JSON from line {line}, column {column} on", &place)
+        })?;
+        let part = Part { value: &value, at: String::new() };
+        part.knows(&["title", "summary", "minutes", "picture", "steps"])?;
+        let minutes = part.entry("minutes");
+        let count = minutes.value.as_u64().and_then(|minutes| u32::try_from(minutes).ok());
+        Ok(Self {
+            title: Text::read(&part.entry("title"))?,
+            summary: Text::read(&part.entry("summary"))?,
+            minutes: count.map_or_else(|| minutes.wants(|at| said("{at} must be a whole number", at)), Ok)?,
+            picture: part.optional("picture", lines)?.unwrap_or_default(),
+            steps: part.entry("steps").each(Step::read)?,
         })
     }
 
@@ -59,6 +87,21 @@ impl Lesson {
     pub fn step(&self, number: usize) -> Option<&Step> {
         self.steps.get(number.clamp(1, self.steps.len()) - 1)
     }
+}
+
+/// Lines written as `0,0 50,99 99,0;..`.
+fn lines(part: &Part<'_>) -> Read<Vec<Vec<[u8; 2]>>> {
+    let number = |text: &str| text.parse().ok().filter(|number| *number <= 99_u8);
+    let place = |text: &str| text.split_once(',').and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    let line = |text: &str| text.split_whitespace().map(place).collect::<Option<Vec<_>>>();
+    let read = part.value.as_str().and_then(|text| text.split(';').map(line).collect());
+    let wrong = |at: &[(&str, &dyn crate::sentence::Say)]| {
+        said(
+            "{at} must be lines such as 0,0 50,99 99,0 with numbers from 0 to 99 and ; between two lines",
+            at,
+        )
+    };
+    read.map_or_else(|| part.wants(wrong), Ok)
 }
 
 /// A step of a lesson: what is said, shown, asked and to be done.
@@ -94,6 +137,9 @@ pub struct Question {
     pub text: Text,
     /// What can be answered.
     pub answers: Vec<Answer>,
+    /// The view that shows what comes of it, as a link's fragment: the answers are predictions then, about which nothing
+    /// is said until it is shown.
+    pub reveal: Option<String>,
 }
 
 /// An answer that can be chosen.
@@ -107,52 +153,56 @@ pub struct Answer {
     pub right: bool,
 }
 
-/// A list with at least one entry.
-fn list<T>(value: &Value, read: fn(&Value) -> Option<T>) -> Option<Vec<T>> {
-    value.as_array().filter(|entries| !entries.is_empty())?.iter().map(read).collect()
-}
-
-fn word(value: &Value) -> Option<String> {
-    value.as_str().map(str::to_owned)
-}
-
 impl Step {
-    fn read(value: &Value) -> Option<Self> {
+    fn read(part: &Part<'_>) -> Read<Self> {
+        part.knows(&["text", "view", "goal", "question", "claims"])?;
         // What is there must be right; what is not there need not be.
-        let goal = value.get("goal").map(Goal::read);
-        let question = value.get("question").map(Question::read);
-        Some(Self {
-            text: Text::read(&value["text"])?,
-            view: value.get("view").and_then(word),
-            goal: if let Some(goal) = goal { Some(goal?) } else { None },
-            question: if let Some(question) = question { Some(question?) } else { None },
+        Ok(Self {
+            text: Text::read(&part.entry("text"))?,
+            view: part.optional("view", |part| part.word())?,
+            goal: part.optional("goal", Goal::read)?,
+            question: part.optional("question", Question::read)?,
         })
     }
 }
 
 impl Goal {
-    fn read(value: &Value) -> Option<Self> {
-        Some(Self {
-            task: Text::read(&value["task"])?,
-            conditions: list(&value["conditions"], Condition::read)?,
-            show: word(&value["show"])?,
-            reaction: Text::read(&value["reaction"])?,
+    fn read(part: &Part<'_>) -> Read<Self> {
+        part.knows(&["task", "conditions", "show", "reaction"])?;
+        Ok(Self {
+            task: Text::read(&part.entry("task"))?,
+            conditions: part.entry("conditions").each(|part| {
+                let wrong = |at: &[(&str, &dyn crate::sentence::Say)]| {
+                    said("{at} must have an entry at that names a fact, and may have from, to and is", at)
+                };
+                Condition::read(part.value).map_or_else(|| part.wants(wrong), Ok)
+            })?,
+            show: part.entry("show").word()?,
+            reaction: Text::read(&part.entry("reaction"))?,
         })
     }
 }
 
 impl Question {
-    fn read(value: &Value) -> Option<Self> {
-        Some(Self { text: Text::read(&value["text"])?, answers: list(&value["answers"], Answer::read)? })
+    fn read(part: &Part<'_>) -> Read<Self> {
+        part.knows(&["text", "answers", "reveal"])?;
+        let answers = part.entry("answers");
+        let read: Vec<Answer> = answers.each(Answer::read)?;
+        if read.iter().filter(|answer| answer.right).count() != 1 {
+            return answers.wants(|at| said("of {at} exactly one must be right", at));
+        }
+        let text = Text::read(&part.entry("text"))?;
+        Ok(Self { text, answers: read, reveal: part.optional("reveal", |part| part.word())? })
     }
 }
 
 impl Answer {
-    fn read(value: &Value) -> Option<Self> {
-        Some(Self {
-            text: Text::read(&value["text"])?,
-            reply: Text::read(&value["reply"])?,
-            right: value["right"].as_bool().unwrap_or_default(),
+    fn read(part: &Part<'_>) -> Read<Self> {
+        part.knows(&["text", "reply", "right"])?;
+        Ok(Self {
+            text: Text::read(&part.entry("text"))?,
+            reply: Text::read(&part.entry("reply"))?,
+            right: part.value.get("right").and_then(Value::as_bool).unwrap_or_default(),
         })
     }
 }

@@ -51,7 +51,9 @@ mod tests {
     #[test]
     fn the_facts_hold_view_verdict_and_theory() {
         // Figure 9, with the numbers of an independent program.
-        let facts = facts_at_once(&View::default()).expect("facts");
+        let figure =
+            crate::app::link::read("v=1&alpha=1e-4&beta=0.01&omega=8.0969&c0=0.5084", &View::default()).0;
+        let facts = facts_at_once(&figure).expect("facts");
         for condition in [
             r#"{"at":"/view/scenario/parameters/beta","is":0.01}"#,
             r#"{"at":"/view/tab","is":"explore"}"#,

@@ -1,7 +1,7 @@
 //! The lessons by name.
 
 use std::fmt;
-use std::sync::OnceLock;
+use std::sync::{OnceLock, RwLock};
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
@@ -11,7 +11,7 @@ use super::data::Lesson;
 pub const STEPS: usize = 12;
 
 /// Names and texts of the lessons, in the order in which they are offered.
-const SOURCES: [(&str, &str); 11] = [
+const SOURCES: [(&str, &str); 13] = [
     ("tour", include_str!("../../../assets/lessons/tour.json")),
     ("resonance", include_str!("../../../assets/lessons/resonance.json")),
     ("quadratic", include_str!("../../../assets/lessons/quadratic.json")),
@@ -23,7 +23,13 @@ const SOURCES: [(&str, &str); 11] = [
     ("basins", include_str!("../../../assets/lessons/basins.json")),
     ("escape", include_str!("../../../assets/lessons/escape.json")),
     ("harvest", include_str!("../../../assets/lessons/harvest.json")),
+    ("chirp", include_str!("../../../assets/lessons/chirp.json")),
+    ("random", include_str!("../../../assets/lessons/random.json")),
 ];
+
+/// The name of the lesson of one's own, and that lesson, once a file has brought one.
+const OWN: &str = "own";
+static BROUGHT: RwLock<Option<&'static Lesson>> = RwLock::new(None);
 
 /// A lesson by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,14 +46,29 @@ impl LessonId {
         Self(0)
     }
 
+    /// The lesson that a file has brought.
+    pub fn own() -> Self {
+        Self(SOURCES.len())
+    }
+
+    /// Makes `lesson` the one that a file has brought.
+    pub fn bring(lesson: Lesson) -> Self {
+        // It is looked at from everywhere, as ours are; a page brings a few at most.
+        let lesson: &'static Lesson = Box::leak(Box::new(lesson));
+        if let Ok(mut brought) = BROUGHT.write() {
+            *brought = Some(lesson);
+        }
+        Self::own()
+    }
+
     /// The lesson of that name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::all().find(|id| id.name() == name)
+        Self::all().chain([Self::own()]).find(|id| id.name() == name)
     }
 
     /// Its name, as in links.
     pub fn name(self) -> &'static str {
-        SOURCES[self.0].0
+        SOURCES.get(self.0).map_or(OWN, |(name, _)| name)
     }
 
     /// Its place in the list, from 1.
@@ -55,15 +76,18 @@ impl LessonId {
         self.0 + 1
     }
 
-    /// The file it is read from.
+    /// The file it is read from; nothing for one that is brought.
     pub fn source(self) -> &'static str {
-        SOURCES[self.0].1
+        SOURCES.get(self.0).map_or("", |(_, source)| source)
     }
 
-    /// What it says; `None` when its file is no lesson, which a test rules out.
+    /// What it says; `None` when its file is no lesson, which a test rules out, or none has been brought.
     pub fn lesson(self) -> Option<&'static Lesson> {
+        if self == Self::own() {
+            return BROUGHT.read().ok().and_then(|brought| *brought);
+        }
         static LESSONS: OnceLock<Vec<Option<Lesson>>> = OnceLock::new();
-        let read = || Self::all().map(|id| Lesson::read(id.source())).collect();
+        let read = || Self::all().map(|id| Lesson::read(id.source()).ok()).collect();
         LESSONS.get_or_init(read).get(self.0)?.as_ref()
     }
 }

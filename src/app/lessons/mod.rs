@@ -11,14 +11,19 @@
 //! goal, once reached, stays so. Goals are looked at when view or verdict change; while a lesson runs the verdict is
 //! computed on the Design tab, too.
 //!
+//! A lesson of one's own is a file dropped on the page or named in its address; `lessons::check` says what is wrong with
+//! it. It runs under the name `own`.
+//!
 //! `tests/slow/lessons/` holds lessons to the truth: a step's own view must leave its goal open, what is shown must
 //! reach it by the real solver, and every number in the texts needs a claim, which is a request whose answer it is.
 
+pub mod check;
 pub mod condition;
 pub mod course;
 pub mod data;
 pub mod facts;
 mod id;
+mod part;
 
 pub use course::Course;
 pub use data::Lesson;

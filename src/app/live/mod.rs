@@ -23,8 +23,8 @@ mod tests;
 use super::clock::milliseconds;
 use super::curves;
 use super::session::Session;
+use super::view::View;
 use super::view::live::LiveView;
-use super::view::{Tab, View};
 use crate::dynamics::{IntegrationError, Outcome, Reach};
 use crate::model::{ModelError, ParameterSet, ReducedSystem};
 use crate::scenario::{ModelChoice, Scenario};
@@ -103,9 +103,10 @@ impl Live {
         self.sound.as_mut()?.chunk()
     }
 
-    /// Goes on by the time since the last frame; `now` is the page's clock (s). Whether it goes on in the next frame.
-    pub(super) fn frame(&mut self, now: f64, view: &View) -> bool {
-        if view.tab != Tab::Live {
+    /// Goes on by the time since the last frame, where it is `in_sight`; `now` is the page's clock (s). Whether it goes on
+    /// in the next frame.
+    pub(super) fn frame(&mut self, now: f64, view: &View, in_sight: bool) -> bool {
+        if !in_sight {
             (self.clock, self.reached) = (None, None);
             return false;
         }
@@ -151,6 +152,7 @@ impl Live {
                 if let Some(run) = &mut self.run {
                     let velocity = way * kick(&view.live, run.system());
                     let kicked = run.kick(velocity);
+                    self.trail.kick(run);
                     self.note(kicked);
                 }
             }

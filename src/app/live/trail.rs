@@ -11,6 +11,8 @@ const PER_TURN: u64 = 64;
 const KEPT: usize = (2 * WINDOWS.1 + 1) * PER_TURN as usize;
 /// Poincaré points kept.
 const POINTS: usize = 3000;
+/// Kicks kept.
+const KICKS: usize = 100;
 /// Periods that means cover; even, as are most periods of motions.
 const MEAN_PERIODS: usize = 8;
 /// Periods that the extremes of the tip cover.
@@ -61,6 +63,8 @@ pub(in crate::app) struct Trail {
     pub samples: VecDeque<Sample>,
     /// Those at phase 0: the Poincaré points.
     pub strobe: VecDeque<Sample>,
+    /// Where the tip was kicked, as long as that is in sight.
+    pub kicks: VecDeque<Sample>,
     /// Turns at which the numbers changed last.
     pub changed: f64,
     /// Half heights of the scales of the four values.
@@ -165,6 +169,12 @@ impl Trail {
     pub(super) fn clear(&mut self) {
         self.samples.clear();
         self.strobe.clear();
+        self.kicks.clear();
+    }
+
+    /// Notes that the tip was kicked.
+    pub(super) fn kick(&mut self, run: &LiveRun) {
+        keep(&mut self.kicks, Sample::of(run), KICKS);
     }
 
     /// Forgets samples whose tip is farther off than `limit` beam lengths: of an escape nothing else would be seen.

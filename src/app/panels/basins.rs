@@ -22,6 +22,9 @@ const LISTED: usize = 6;
 /// Width from which the list stands beside the plot.
 const BESIDE: f32 = 400.0;
 const LIST_WIDTH: f32 = 190.0;
+/// Height up to which it stands there in any case, and the part of the width that it takes at most.
+const LOW: f32 = 320.0;
+const SHARE: f32 = 0.45;
 
 /// The basins.
 pub(super) const PANEL: Spec =
@@ -37,13 +40,13 @@ fn ask(Asking { view, studies, .. }: &mut Asking<'_>) {
 fn contents(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(basin) = context.studies.lanes.study::<BasinStudy>() else { return };
     let attractors = basin.attractors();
-    if ui.available_width() < BESIDE {
+    if ui.available_width() < BESIDE && ui.available_height() > LOW {
         list(context, ui, &attractors);
         plot(context, ui, basin, &attractors);
         return;
     }
     let area = ui.available_rect_before_wrap();
-    let (left, right) = area.split_left_right_at_x(area.right() - LIST_WIDTH);
+    let (left, right) = area.split_left_right_at_x(area.right() - LIST_WIDTH.min(SHARE * area.width()));
     ui.scope_builder(egui::UiBuilder::new().max_rect(left), |ui| plot(context, ui, basin, &attractors));
     let right = right.shrink2(egui::vec2(8.0, 0.0));
     ui.scope_builder(egui::UiBuilder::new().max_rect(right), |ui| list(context, ui, &attractors));

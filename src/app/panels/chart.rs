@@ -16,7 +16,8 @@ use crate::app::view::Tab;
 use crate::app::widgets::number::{self, significant};
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{
-    Filling, Hatched, Series, chips, colour_bar, draw_raster, fading, hatched, raster, recorder, swatches,
+    Filling, Hatched, Series, chips, colour_bar, draw_raster, fading, hatched, raster, recorder, row,
+    swatches,
 };
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
@@ -61,7 +62,7 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let mut layer = context.view.layer;
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         stability_map::choose_window(context, ui);
         ui.add_space(6.0);
         let layers = [

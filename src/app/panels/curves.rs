@@ -10,7 +10,7 @@ use crate::app::text::{fill, marked, say, tr};
 use crate::app::view::Tab;
 use crate::app::widgets::number::round_significant;
 use crate::app::widgets::plot_style;
-use crate::app::widgets::{Series, chips_after, legend};
+use crate::app::widgets::{Series, chips_after, legend, row};
 use crate::app::{colours, questions};
 use crate::dynamics::Instability;
 use crate::dynamics::bifurcations::curves::Criticality;
@@ -50,7 +50,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let [mut x, mut y] = context.view.plane;
     let before = [x, y];
     let choices = PARAMETERS.map(|parameter| (parameter, parameter.fact().symbol));
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         chips_after(ui, tr("across"), tr("Horizontal parameter"), &mut x, &choices);
         chips_after(ui, tr("up"), tr("Vertical parameter"), &mut y, &choices);

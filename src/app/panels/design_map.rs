@@ -11,7 +11,7 @@ use crate::app::text::{fill, say, tr};
 use crate::app::view::design::{Aim, Page};
 use crate::app::widgets::number::{self, round_significant};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Filling, chips, colour_bar, hatched, recorder, swatches};
+use crate::app::widgets::{Filling, chips, colour_bar, hatched, recorder, row, swatches};
 use crate::app::{bench, colours, theme};
 use crate::model::{Dimension, ElectricalScaling};
 use crate::questions::design::find::{Evaluation, Objective};
@@ -62,7 +62,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
     ];
     let tokens = theme::tokens(ui);
     let (low, high) = extremes(map);
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         if chips(ui, tr("Mapped"), &mut aim, &choices) {
             context.redesign(|design| design.search.pursue(aim));
         }

@@ -15,7 +15,7 @@ pub(super) use self::presets::name as published_name;
 use super::{Context, facts};
 use crate::app::command::Command;
 use crate::app::text::{fill, tr};
-use crate::app::view::{Tab, View};
+use crate::app::view::{Tab, View, opening};
 use crate::app::widgets::chips;
 use crate::app::widgets::number::prefix;
 use crate::app::{bench, theme};
@@ -56,7 +56,8 @@ fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension, scaling: Elect
     let present = device.get(dimension);
     let (unit, factor) = shown(dimension, present);
     let mut value = facts::round(factor * if present.is_finite() { present } else { fact.usual.1 });
-    let default = facts::round(factor * Device::default().get(dimension));
+    let opening = opening().device().unwrap_or_default();
+    let default = facts::round(factor * opening.get(dimension));
     let slider = facts::slider_in(fact, factor, &mut value).default_value(default).unit(scaling.unit(unit));
     let changed = slider.compact().show(ui).changed;
     if changed {

@@ -2,7 +2,7 @@
 
 use egui::{Align, Layout, RichText, Ui, vec2};
 
-use super::{Context, beam, device, grid, plots, structure, verdict};
+use super::{Context, beam, device, grid, live, plots, structure, verdict};
 use crate::app::embed::{Control, Embed, Part};
 use crate::app::text::{fill, tr};
 use crate::app::view::View;
@@ -50,7 +50,11 @@ fn contents(context: &mut Context<'_>, embed: &Embed, notice: Option<&str>, ui: 
     if embed.parts.contains(&Part::Verdict) {
         verdict::show(context, ui);
     }
-    let mut parts: Vec<Part> = embed.parts.iter().copied().filter(|part| *part != Part::Verdict).collect();
+    if embed.parts.contains(&Part::Live) {
+        live::controls(context, ui);
+    }
+    let card = |part: &Part| !matches!(part, Part::Verdict | Part::Live);
+    let mut parts: Vec<Part> = embed.parts.iter().copied().filter(card).collect();
     if let Some(large) = context.view.enlarged.filter(|panel| embed.shows(*panel)) {
         parts = vec![Part::Plot(large)];
     }
@@ -91,7 +95,7 @@ fn draw(context: &mut Context<'_>, ui: &mut Ui, part: Part) {
         Part::Plot(panel) => plots::draw(context, ui, panel),
         // The card's own title and margin take the rest.
         Part::Beam => beam::show_in(context, ui, ui.available_height() - BEAM_FRAME),
-        Part::Verdict => {}
+        Part::Verdict | Part::Live => {}
     }
 }
 

@@ -1,6 +1,7 @@
 //! Sliders and axes of the model's numbers, as their rows say.
 
 use crate::app::text::tr;
+use crate::app::view::opening;
 use crate::app::widgets::ParameterSlider;
 use crate::app::widgets::number::round_significant;
 use crate::export::Axis;
@@ -21,7 +22,7 @@ pub(super) fn slider_in<'a>(fact: &'static Fact, factor: f64, value: &'a mut f64
 
 /// The slider of a parameter.
 pub(super) fn of_parameter(set: &mut ParameterSet, parameter: Parameter) -> ParameterSlider<'_> {
-    let default = ParameterSet::default().get(parameter);
+    let default = opening().parameters.get(parameter);
     slider(parameter.fact(), set.get_mut(parameter)).default_value(default).equation("Eq. 8")
 }
 

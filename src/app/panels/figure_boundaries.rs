@@ -9,7 +9,7 @@ use crate::app::text::tr;
 use crate::app::theme;
 use crate::app::widgets::number::significant;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Card, Series, legend};
+use crate::app::widgets::{Card, Icon, Series, legend, row};
 use crate::export::Pen;
 
 const HEIGHT: f32 = 380.0;
@@ -17,12 +17,13 @@ const HEIGHT: f32 = 380.0;
 /// Draws the figure as one card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigure) {
     let hint = tr("dotted, solid, dashed, dash-dotted: the four dampings, as in the paper");
-    let height = ui.available_height().max(HEIGHT);
+    let least = if context.on_top.is_some() { 0.0 } else { HEIGHT };
+    let height = ui.available_height().max(least);
     let title = tr("Stability boundaries");
     let shown = Card::new(title).hint(hint).exports().height(height).show(ui, |ui| {
         let tongues = &context.session.comparison.tongues;
         let dampings: Vec<String> = tongues.iter().map(|(alpha, _)| significant(*alpha, 1)).collect();
-        ui.horizontal_wrapped(|ui| {
+        row(ui, |ui| {
             let thin = [
                 (Series::Published, tr("as printed (thin)")),
                 (Series::Coupled, tr("coupled modes (thick)")),
@@ -66,6 +67,9 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &BoundaryFigu
         });
     });
     context.export(title, shown.export);
+    if shown.pressed == Some(Icon::Record) {
+        context.record(ui, title, shown.rect);
+    }
 }
 
 /// The same pen with twice the weight.

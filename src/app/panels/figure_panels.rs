@@ -8,7 +8,7 @@ use crate::app::figures::Figure;
 use crate::app::session::Shown;
 use crate::app::text::tr;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Card, Series};
+use crate::app::widgets::{Card, Icon, Series};
 use crate::theory::SteadyState;
 
 /// Points of a drawn history.
@@ -35,20 +35,33 @@ pub(super) fn panels(figure: &Figure) -> &'static [Letter] {
     }
 }
 
-/// Draws one panel as a card.
-pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure, letter: Letter) {
-    let title = match letter {
-        Letter::InitialHistory => tr("(a)  Initial history"),
-        Letter::TerminalHistory if figure.number == 4 => tr("(b)  Long-term response"),
-        Letter::TerminalHistory => tr("(b)  Steady-state response"),
-        Letter::PhaseDiagram if figure.number == 12 => tr("(b)  Phase diagram"),
-        Letter::PhaseDiagram => tr("(c)  Phase diagram"),
-        Letter::PoincareMap => tr("(d)  Poincaré map"),
-    };
-    let Some((initial_until, window)) = figure.windows() else { return };
+impl Letter {
+    /// The card's title.
+    pub(super) fn title(self, figure: &Figure) -> &'static str {
+        match self {
+            Self::InitialHistory => tr("(a)  Initial history"),
+            Self::TerminalHistory if figure.number == 4 => tr("(b)  Long-term response"),
+            Self::TerminalHistory => tr("(b)  Steady-state response"),
+            Self::PhaseDiagram if figure.number == 12 => tr("(b)  Phase diagram"),
+            Self::PhaseDiagram => tr("(c)  Phase diagram"),
+            Self::PoincareMap => tr("(d)  Poincaré map"),
+        }
+    }
+}
+
+/// Draws one panel as a card; the index of the one of these `others` that was chosen in its place.
+pub(super) fn show(
+    context: &mut Context<'_>,
+    ui: &mut Ui,
+    figure: &Figure,
+    letter: Letter,
+    others: &[&str],
+) -> Option<usize> {
+    let title = letter.title(figure);
+    let (initial_until, window) = figure.windows()?;
     let with_theory = letter != Letter::InitialHistory && figure.number != 12;
     let hint = if with_theory { tr("dots: first-order theory") } else { "" };
-    let shown = Card::new(title).hint(hint).exports().show(ui, |ui| {
+    let shown = Card::new(title).hint(hint).among(others).exports().show(ui, |ui| {
         if context.is_stale() {
             ui.multiply_opacity(0.55);
         }
@@ -61,6 +74,10 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui, figure: &Figure, lett
         }
     });
     context.export(title, shown.export);
+    if shown.pressed == Some(Icon::Record) {
+        context.record(ui, title, shown.rect);
+    }
+    shown.chosen
 }
 
 fn history(ui: &mut Ui, figure: &Figure, shown: &Shown, [from, to]: [f64; 2], theory: bool) {

@@ -13,7 +13,7 @@ use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::view::design::{Page, Watched};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips, legend};
+use crate::app::widgets::{Series, chips, legend, row};
 use crate::export::Pen;
 use crate::questions::design::HarvestPoint;
 use crate::questions::harvest::HarvestStudy;
@@ -46,7 +46,7 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
         (Watched::Peak, tr("V peak")),
         (Watched::Tip, tr("tip")),
     ];
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         let mut changed = chips(ui, tr("Over frequency"), &mut watched, &choices);
         if watched != Watched::Tip {
             changed |= chips(ui, tr("Scale"), &mut logarithmic, &[(false, tr("linear")), (true, tr("log"))]);

@@ -7,14 +7,16 @@ use egui::Ui;
 use super::Context;
 use super::spec::{Place, Spec};
 use crate::app::curves::{self, SIGHT};
-use crate::app::text::{fill, tr};
+use crate::app::text::{fill, marked, tr};
 use crate::app::view::Tab;
 use crate::app::widgets::BeamView;
 use crate::app::widgets::number::short;
 
 /// The beam, a picture.
-pub(super) const PANEL: Spec =
-    Spec::new(Place::Tab(Tab::Live), |_| tr("Live beam"), picture).hint(hint).without_plot();
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Live), |_| tr("Live beam"), picture)
+    .hint(hint)
+    .without_plot()
+    .embedded("live_beam", marked("Live beam"));
 
 /// How fast it moves, next to the device.
 fn hint(context: &Context<'_>) -> String {

@@ -7,7 +7,7 @@ use super::Context;
 use super::live::traced::Traced;
 use super::spec::{Place, Spec};
 use crate::app::live::{PORTRAIT, Sample};
-use crate::app::text::{fill, tr};
+use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
 use crate::app::view::Tab;
 use crate::app::widgets::{Series, legend, plot_style};
@@ -22,7 +22,8 @@ const AGES: [(usize, f32); 4] = [(16, 1.0), (120, 0.8), (600, 0.55), (usize::MAX
 
 /// The portrait.
 pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Live), |_| tr("Live phase portrait"), plot)
-    .hint(|context| fill("{count} Poincaré points", &[("count", &context.live.trail.strobe.len())]));
+    .hint(|context| fill("{count} Poincaré points", &[("count", &context.live.trail.strobe.len())]))
+    .embedded("live_phase", marked("Live phase portrait"));
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(now) = context.live.present() else { return };
@@ -41,6 +42,8 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let mut points: Vec<PlotPoint> = trail.strobe.range(old..).map(place).collect();
     // Newest first, so that ages count from the front.
     points.reverse();
+    let kicks = trail.kicks.iter().filter(|kick| kick.turns >= now.turns - PORTRAIT);
+    let kicks: Vec<PlotPoint> = kicks.map(place).collect();
     let [width, height] = traced.scales(context);
     let tokens = theme::tokens(ui);
     let [x, y] = &traced.axes;
@@ -63,6 +66,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
             plot_style::faded_points(plot, Series::Poincare, tr("at phase 0"), aged, strength);
             newer = until;
         }
+        plot_style::points(plot, Series::FromRest, tr("kick"), &kicks);
         plot_style::points(plot, Series::Numeric, tr("now"), &motion[motion.len() - 1..]);
     });
 }

@@ -14,7 +14,7 @@ use crate::app::theme;
 use crate::app::view::design::Page;
 use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips, legend};
+use crate::app::widgets::{Series, chips, legend, row};
 use crate::export::Pen;
 use crate::questions::design::Plant;
 use crate::questions::design::load::{BestFrequency, LoadPoint};
@@ -49,7 +49,7 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let mut logarithmic = context.view.design.logarithmic;
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         if chips(ui, tr("Scale"), &mut logarithmic, &[(false, tr("linear")), (true, tr("log"))]) {
             context.redesign(|design| design.logarithmic = logarithmic);
         }

@@ -20,6 +20,7 @@ mod grid;
 pub(super) mod lessons;
 pub(super) mod list;
 pub(super) mod live;
+pub(super) mod on_top;
 pub(super) mod paper;
 pub(super) mod parts;
 mod phase_plane;
@@ -67,6 +68,10 @@ pub(super) struct Context<'a> {
     pub embed: Option<&'a Embed>,
     /// Whether there is a step to take back, and one to take again.
     pub steps: (bool, bool),
+    /// Whether a clip is being recorded.
+    pub records: bool,
+    /// Where the chosen plot stands above the tab, which then leaves its plots out.
+    pub on_top: Option<egui::Rect>,
     pub commands: &'a mut Commands,
 }
 
@@ -114,6 +119,15 @@ impl<'a> Context<'a> {
     pub(super) fn computing<S: Study>(&self, otherwise: &str) -> String {
         let part = self.studies.lanes.lane::<S>().and_then(Traffic::progress);
         part.map_or_else(|| otherwise.to_owned(), computing)
+    }
+
+    /// Asks for a clip of the card with this title.
+    pub(super) fn record(&mut self, ui: &egui::Ui, title: &str, card: egui::Rect) {
+        let page = ui.ctx().content_rect();
+        let place = |at: egui::Pos2| ((at - page.min) / page.size()).to_pos2();
+        let part = egui::Rect::from_min_max(place(card.min), place(card.max));
+        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
+        self.commands.push(Command::Record(Some((title.to_owned(), part.intersect(whole)))));
     }
 
     /// Asks for a file of what the card with this title shows.

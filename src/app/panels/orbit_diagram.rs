@@ -10,7 +10,7 @@ use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::view::Tab;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, legend};
+use crate::app::widgets::{Series, legend, row};
 use crate::dynamics::Motion;
 use crate::dynamics::attractors::sweep::SweepPoint;
 use crate::questions::sweep::{Direction, SweepStudy};
@@ -30,7 +30,7 @@ pub(super) fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
 
 fn diagram(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(study) = context.studies.lanes.study::<SweepStudy>() else { return };
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 14.0;
         legend::legend_entry(ui, Series::Up, tr("upwards"));
         legend::legend_entry(ui, Series::Down, tr("downwards"));

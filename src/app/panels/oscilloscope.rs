@@ -7,12 +7,12 @@ use super::Context;
 use super::live::traced::{Traced, look, si};
 use super::spec::{Place, Spec};
 use crate::app::live::Sample;
-use crate::app::text::tr;
+use crate::app::text::{marked, tr};
 use crate::app::theme;
 use crate::app::view::Tab;
 use crate::app::view::live::Trace;
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips};
+use crate::app::widgets::{Series, chips, row};
 use crate::export::Pen;
 
 /// Excitation periods a second from which the trace stands still between triggers instead of rolling.
@@ -22,7 +22,8 @@ const WINDOWS: [(usize, &str); 3] = [(4, "4"), (12, "12"), (48, "48")];
 
 /// The oscilloscope.
 pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Live), |_| tr("Oscilloscope"), contents)
-    .hint(|context| if triggered(context) { tr("triggered at phase 0") } else { tr("rolling") }.to_owned());
+    .hint(|context| if triggered(context) { tr("triggered at phase 0") } else { tr("rolling") }.to_owned())
+    .embedded("oscilloscope", marked("Oscilloscope"));
 
 fn triggered(context: &Context<'_>) -> bool {
     context.view.live.speed >= TRIGGERED_FROM
@@ -36,7 +37,7 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
 fn choices(context: &mut Context<'_>, ui: &mut Ui) {
     let mut live = context.view.live;
     let weak = theme::tokens(ui).text_weak;
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         let traces = [(Trace::Voltage, tr("voltage")), (Trace::Tip, tr("tip"))];
         chips(ui, tr("Trace"), &mut live.trace, &traces);
         chips(ui, tr("Periods across"), &mut live.periods, &WINDOWS);
@@ -87,6 +88,10 @@ fn plot(context: &Context<'_>, ui: &mut Ui, triggered: bool) {
     plot_style::fixed(ui, "oscilloscope", &x, y).show(ui, |plot| {
         plot.set_plot_bounds(PlotBounds::from_min_max([bounds[0], -height], [bounds[1], height]));
         plot_style::rule(plot, false, "", 0.0, tokens.ruler, Pen::Line(1.0));
+        for kick in context.live.trail.kicks.iter().filter(|kick| kick.turns >= begun) {
+            let place = place(kick, begun);
+            plot_style::rule(plot, true, tr("kick"), place.x, tokens.warning, Pen::Dashes(1.6, 6.0));
+        }
         let faint = tokens.numeric.gamma_multiply(0.4);
         plot_style::curve(plot, tr("sweep before"), faint, Pen::Line(1.5), &before);
         plot_style::series(plot, Series::Numeric, y.symbol(), &present);

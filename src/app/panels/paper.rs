@@ -24,12 +24,17 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         return;
     };
     describe(context, ui, figure);
+    if context.on_top.is_some() {
+        return;
+    }
     ui.add_space(10.0);
     match figure.boundaries() {
         Some(boundaries) => figure_boundaries::show(context, ui, &boundaries),
         None => {
             let panels = figure_panels::panels(figure);
-            grid::grid(ui, panels, &mut |ui, panel| figure_panels::show(context, ui, figure, *panel));
+            grid::grid(ui, panels, &mut |ui, panel| {
+                figure_panels::show(context, ui, figure, *panel, &[]);
+            });
         }
     }
 }

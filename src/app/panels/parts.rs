@@ -15,6 +15,7 @@ pub(in crate::app) fn parts() -> Parts {
         Panel::ALL.iter().filter_map(plot).partition(|(part, _, _)| stands_on(*part, Tab::Explore));
     parts.insert(0, (Part::Verdict, "verdict", marked("Verdict")));
     parts.push((Part::Beam, "beam", marked("The beam")));
+    parts.push((Part::Live, "live", marked("Run and kick")));
     parts.extend(others);
     parts
 }
@@ -44,7 +45,7 @@ mod tests {
         let names = |view: &View| usual(view).iter().map(|i| parts[*i].1).collect::<Vec<_>>();
         assert_eq!(names(&View { enlarged: Some(Panel::Chart), ..View::default() }), ["chart"]);
         assert_eq!(names(&View::default()), ["map", "phase"]);
-        assert_eq!(names(&View { tab: Tab::Live, ..View::default() }), ["map", "phase"]);
+        assert_eq!(names(&View { tab: Tab::Live, ..View::default() }), ["oscilloscope", "live_phase"]);
         assert_eq!(names(&View { tab: Tab::Design, ..View::default() }), ["harvest", "load"]);
     }
 }

@@ -19,6 +19,9 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// The panels of the place in view side by side, or the one of them that fills the page.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
+    if context.on_top.is_some() {
+        return;
+    }
     let panels = list::at(Place::of(context.view));
     if let Some(panel) = alone(context, &panels) {
         let height = ui.available_height().max(LEAST_HEIGHT_ALONE);
@@ -30,6 +33,9 @@ pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// The panels of the place in view below each other, each at least `least` high, or the one of them that is made large.
 pub(super) fn column(context: &mut Context<'_>, ui: &mut Ui, [width, height]: [f32; 2], least: f32) {
+    if context.on_top.is_some() {
+        return;
+    }
     let panels = list::at(Place::of(context.view));
     let panels = alone(context, &panels).map_or(panels, |panel| vec![panel]);
     let count = panels.len().max(1) as f32;
@@ -49,23 +55,37 @@ pub(super) fn alone(context: &Context<'_>, panels: &[Panel]) -> Option<Panel> {
 
 /// The card of a panel; a press of one of its buttons is carried out.
 pub(super) fn draw(context: &mut Context<'_>, ui: &mut Ui, panel: Panel) {
+    draw_among(context, ui, panel, &[]);
+}
+
+/// The same, where its title offers others to be shown in its place: the index of the one that was chosen.
+pub(super) fn draw_among(
+    context: &mut Context<'_>,
+    ui: &mut Ui,
+    panel: Panel,
+    others: &[&str],
+) -> Option<usize> {
     let spec = list::spec(panel);
     let large = context.view.enlarged == Some(panel);
     let (icon, label) =
         if large { (Icon::Shrink, tr("Show all plots")) } else { (Icon::Enlarge, tr("Enlarge")) };
     let (title, hint) = ((spec.title)(context.view), (spec.hint)(context));
-    let card = Card::new(title).hint(&hint);
+    let card = Card::new(title).hint(&hint).among(others);
     let card = if spec.exports { card.exports() } else { card };
-    let shown = card.button(icon, label).show(ui, |ui| {
-        if context.is_stale() && context.view.tab != Tab::Live {
+    let card = if context.on_top.is_some() { card } else { card.button(icon, label) };
+    let shown = card.show(ui, |ui| {
+        if context.is_stale() && spec.place.tab() != Tab::Live {
             ui.multiply_opacity(0.55);
         }
         (spec.contents)(context, ui);
     });
     context.export(title, shown.export);
-    if shown.pressed.is_some() {
-        context.commands.push(Command::Enlarge((!large).then_some(panel)));
+    match shown.pressed {
+        Some(Icon::Record) => context.record(ui, title, shown.rect),
+        Some(_) => context.commands.push(Command::Enlarge((!large).then_some(panel))),
+        None => {}
     }
+    shown.chosen
 }
 
 #[cfg(test)]

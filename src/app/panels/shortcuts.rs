@@ -11,7 +11,7 @@ use crate::app::{fonts, theme};
 const WIDTH: f32 = 420.0;
 
 /// Keys and what they do.
-const KEYS: [(&str, &str); 22] = [
+const KEYS: [(&str, &str); 24] = [
     (marked("1 2 3 …"), marked("open a tab")),
     (marked("Tab, Shift+Tab"), marked("go to the next or last control")),
     (marked("Enter, Space"), marked("press it")),
@@ -19,10 +19,12 @@ const KEYS: [(&str, &str); 22] = [
     (marked("Shift + drag"), marked("move a slider finely")),
     (marked("Ctrl + wheel"), marked("zoom a plot")),
     (marked("Page Up, Page Down"), marked("move it in large steps")),
+    (marked("Page Up, Page Down"), marked("in a lesson or among the figures: the last or next one")),
     (marked("Ctrl+← →"), marked("go to its next mark")),
     (marked("Home, End"), marked("go to its ends")),
     (marked("← ↑ ↓ →"), marked("move the point in a map")),
     (marked("F"), marked("fill the page with one plot after another")),
+    (marked("Shift+F"), marked("fill the screen with the page")),
     (marked("Escape"), marked("show all plots; close; leave a field")),
     (marked("P"), marked("pin the curves, or drop them")),
     (marked("B"), marked("let the beam move, or hold it")),

@@ -10,7 +10,7 @@ use crate::app::map::{Boundaries, ceiling};
 use crate::app::text::{marked, tr};
 use crate::app::view::{MapWindow, Tab, View};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips, legend};
+use crate::app::widgets::{Series, chips, legend, row};
 use crate::model::Parameter;
 use crate::questions::tongues::Traced;
 use crate::theory::Resonance;
@@ -44,8 +44,8 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.y = 2.0;
+    row(ui, |ui| {
+        ui.spacing_mut().item_spacing = egui::vec2(6.0, 2.0);
         choose_window(context, ui);
         ui.add_space(6.0);
         if ui.available_size_before_wrap().x < LEGEND {

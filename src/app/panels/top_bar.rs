@@ -8,6 +8,7 @@ use crate::app::panels::computing;
 use crate::app::session::Status;
 use crate::app::text::{self, Language, tr};
 use crate::app::view::Tab;
+use crate::app::widgets::card::has_clips;
 use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, sign, tabs};
 use crate::app::{fonts, theme};
 
@@ -29,6 +30,10 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
                 title(ui);
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     ui.spacing_mut().item_spacing.x = 2.0;
+                    shortcuts::button(ui);
+                    if context.records {
+                        stage(context, ui);
+                    }
                     switches(context, ui, width < PHONE);
                     share::buttons(context, ui);
                     status(context, ui, if width < PHONE { sign } else { badge });
@@ -45,6 +50,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             choose_tab(context, ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 shortcuts::button(ui);
+                stage(context, ui);
                 switches(context, ui, false);
                 share::buttons(context, ui);
                 ui.add_space(6.0);
@@ -75,17 +81,35 @@ fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str
     };
 }
 
-/// Where there is no room for another switch, the languages stand among the themes.
-fn switches(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
-    if !with_languages {
+/// What a lecture needs: the whole screen, and a clip of the page, which says so while it is recorded.
+fn stage(context: &mut Context<'_>, ui: &mut Ui) {
+    if context.records {
+        let tokens = theme::tokens(ui);
+        let text = egui::RichText::new(tr("Stop recording")).color(tokens.on_accent);
+        if ui.add(egui::Button::new(text).fill(tokens.danger)).clicked() {
+            context.commands.push(Command::Record(None));
+        }
+    } else if has_clips(ui.ctx()) && icon_button(ui, Icon::Record, tr("Record a clip of the page")).clicked()
+    {
+        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
+        context.commands.push(Command::Record(Some(("page".to_owned(), whole))));
+    }
+    if cfg!(target_arch = "wasm32") && icon_button(ui, Icon::Enlarge, tr("Full screen (Shift+F)")).clicked() {
+        context.commands.push(Command::FullScreen);
+    }
+}
+
+/// Where there is no room for more switches, languages and large type stand among the themes.
+fn switches(context: &mut Context<'_>, ui: &mut Ui, few: bool) {
+    if !few {
         let button = icon_button(ui, Icon::Globe, tr("Language"));
         let popup = Popup::menu(&button).accessible_name(tr("Language"));
         popup.show(|ui| languages(context.commands, ui));
     }
-    choose_theme(context, ui, with_languages);
+    choose_theme(context, ui, few);
     let large = context.view.projector;
     let label = if large { tr("Normal type") } else { tr("Large type for a projector") };
-    if icon_button(ui, if large { Icon::Shrink } else { Icon::Enlarge }, label).clicked() {
+    if !few && icon_button(ui, Icon::Type, label).clicked() {
         context.commands.push(Command::SetProjector(!large));
     }
     let pinned = context.session.pinned.is_some();
@@ -100,7 +124,7 @@ fn switches(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
 }
 
 /// The menu of themes: the choice, or the system's, and high contrast with either.
-fn choose_theme(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
+fn choose_theme(context: &mut Context<'_>, ui: &mut Ui, with_more: bool) {
     let tokens = theme::tokens(ui);
     let button = icon_button(ui, if tokens.dark { Icon::Moon } else { Icon::Sun }, tr("Theme"));
     let popup = Popup::menu(&button).accessible_name(tr("Theme"));
@@ -121,7 +145,11 @@ fn choose_theme(context: &mut Context<'_>, ui: &mut Ui, with_languages: bool) {
         if ui.checkbox(&mut contrast, tr("High contrast")).clicked() {
             commands.push(Command::SetContrast(contrast));
         }
-        if with_languages {
+        if with_more {
+            let mut large = view.projector;
+            if ui.checkbox(&mut large, tr("Large type for a projector")).clicked() {
+                commands.push(Command::SetProjector(large));
+            }
             ui.separator();
             languages(commands, ui);
         }

@@ -11,7 +11,7 @@ use crate::app::reading::{Reading, Tone};
 use crate::app::session::{Shown, Status};
 use crate::app::text::{fill, tr};
 use crate::app::widgets::icon::BUTTON_SIDE;
-use crate::app::widgets::{Icon, icon_button};
+use crate::app::widgets::{Icon, icon_button, words_explained};
 use crate::app::{fonts, theme};
 use crate::dynamics::{Outcome, Verdict};
 use crate::model::Demand;
@@ -157,13 +157,14 @@ fn height(ui: &Ui, rows: usize, size: f32) -> f32 {
 
 /// Text in just so many rows; what does not fit is told on touch.
 fn paragraph(ui: &mut Ui, mut job: LayoutJob, rows: usize, size: f32, width: f32) {
-    let (rect, response) = ui.allocate_exact_size(vec2(width, height(ui, rows, size)), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(width, height(ui, rows, size)), Sense::CLICK);
     job.wrap = TextWrapping { max_width: width, max_rows: rows, ..Default::default() };
     let galley = ui.painter().layout_job(job);
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, galley.text()));
     let place = Align2::LEFT_TOP.align_size_within_rect(galley.size(), rect);
     ui.painter().galley(place.min, galley.clone(), Color32::PLACEHOLDER);
+    let response = words_explained(response, galley.text());
     if galley.elided {
         response.on_hover_text(galley.text());
     }
@@ -227,7 +228,9 @@ mod tests {
                 desk.app.load_json(&json).expect("a scenario");
                 for frames in [1, 4] {
                     desk.work(frames);
-                    tops.push(desk.harness.find(egui::Role::Button, "Enlarge: ").bounds.top());
+                    // Where there is one column, what stands beneath are the folded sliders.
+                    let beneath = if width > 760.0 { "Enlarge: " } else { "Magnet" };
+                    tops.push(desk.harness.find(egui::Role::Button, beneath).bounds.top());
                 }
                 headlines.extend(desk.harness.texts.iter().map(|(text, _)| text.clone()).filter(|text| {
                     ["Period", "Not settled", "Escape", "Contact", "Quasi", "Chaotic"]

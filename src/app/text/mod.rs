@@ -19,6 +19,7 @@
 
 mod language;
 pub mod page;
+pub mod terms;
 
 use std::cell::Cell;
 use std::collections::HashMap;

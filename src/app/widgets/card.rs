@@ -1,19 +1,40 @@
 //! A titled panel with rounded corners.
 
-use egui::{Align2, Layout, Popup, Rect, Response, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{
+    Align2, Context, Id, Layout, Popup, Rect, Response, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
 
+use super::explanation::{self, explained};
 use super::icon::{self, BUTTON_SIDE, Icon};
 use super::plot_style::views;
 use super::recorder;
-use crate::app::text::tr;
+use super::row;
+use crate::app::text::{fill, terms, tr};
 use crate::app::{fonts, theme};
 use crate::export::Format;
 
 /// Height of the title row and inner margin, points.
 const TITLE_ROW: f32 = 34.0;
 const MARGIN: f32 = 12.0;
-/// Number of the button that gives plots their own views again.
+/// Width of what its title means, in the menu of others.
+const MEANING: f32 = 260.0;
+/// Numbers of the button that gives plots their own views again, and of that which holds their axes.
 const FIT: usize = usize::MAX;
+const HOLD: usize = usize::MAX - 1;
+
+fn clips() -> Id {
+    Id::unique("clips")
+}
+
+/// Says whether cards can be recorded as they move.
+pub fn offer_clips(context: &Context, offered: bool) {
+    context.data_mut(|data| data.insert_temp(clips(), offered));
+}
+
+/// Whether what is shown can be recorded as it moves.
+pub fn has_clips(context: &Context) -> bool {
+    context.data(|data| data.get_temp(clips())).unwrap_or(false)
+}
 
 /// A panel with a title, a quiet hint at the right and icon buttons.
 ///
@@ -28,6 +49,7 @@ const FIT: usize = usize::MAX;
 pub struct Card<'a> {
     title: &'a str,
     hint: &'a str,
+    among: &'a [&'a str],
     buttons: Vec<(Icon, &'a str)>,
     height: Option<f32>,
     hugging: bool,
@@ -41,6 +63,8 @@ pub struct CardResponse<R> {
     pub pressed: Option<Icon>,
     /// What the card is to be saved as.
     pub export: Option<Format>,
+    /// Index of the card that is to stand in its place.
+    pub chosen: Option<usize>,
     /// The whole card.
     pub rect: Rect,
 }
@@ -48,12 +72,18 @@ pub struct CardResponse<R> {
 impl<'a> Card<'a> {
     /// A card that fills the available space. `title` identifies its buttons, so it must be unique among siblings.
     pub fn new(title: &'a str) -> Self {
-        Self { title, hint: "", buttons: Vec::new(), height: None, hugging: false }
+        Self { title, hint: "", among: &[], buttons: Vec::new(), height: None, hugging: false }
     }
 
     /// Quiet text right of the title; left out where there is no room for it.
     pub fn hint(mut self, hint: &'a str) -> Self {
         self.hint = hint;
+        self
+    }
+
+    /// Lets the title be pressed to choose another card by its title; this one is among them. One alone is no choice.
+    pub fn among(mut self, titles: &'a [&'a str]) -> Self {
+        self.among = if titles.len() > 1 { titles } else { &[] };
         self
     }
 
@@ -85,9 +115,11 @@ impl<'a> Card<'a> {
         recorder::card(ui.ctx(), self.title);
         views::begin_card(ui.ctx());
         let (rect, background, mut child) = self.begin(ui);
+        row::begin_card(ui.ctx(), (!self.hugging).then(|| child.max_rect().height()));
         let inner = add_contents(&mut child);
-        let (pressed, export, rect) = self.end(ui, &child, rect, background);
-        CardResponse { inner, pressed, export, rect }
+        row::begin_card(ui.ctx(), None);
+        let (Pressed { pressed, export, chosen }, rect) = self.end(ui, &child, rect, background);
+        CardResponse { inner, pressed, export, chosen, rect }
     }
 
     /// Reserves the card's place: its rectangle, its background to be drawn, and where its contents go.
@@ -116,7 +148,7 @@ impl<'a> Card<'a> {
         child: &Ui,
         mut rect: Rect,
         background: egui::layers::ShapeIdx,
-    ) -> (Option<Icon>, Option<Format>, Rect) {
+    ) -> (Pressed, Rect) {
         if self.hugging {
             rect.max.y = child.min_rect().bottom() + MARGIN;
         }
@@ -130,12 +162,38 @@ impl<'a> Card<'a> {
             egui::StrokeKind::Inside,
         );
         ui.painter().set(background, shape);
-        let (pressed, export) = if self.title.is_empty() { (None, None) } else { self.title_row(ui, rect) };
+        let pressed = if self.title.is_empty() { Pressed::default() } else { self.title_row(ui, rect) };
         ui.allocate_rect(rect, Sense::hover());
-        (pressed, export, rect)
+        (pressed, rect)
     }
 
-    fn title_row(&self, ui: &Ui, rect: Rect) -> (Option<Icon>, Option<Format>) {
+    /// Lets the title be pressed.
+    fn choose(&self, ui: &Ui, title: Rect) -> Option<usize> {
+        let tokens = theme::tokens(ui);
+        let place = title.expand2(vec2(4.0, 6.0)).with_max_x(title.right() + 20.0);
+        let response = ui.interact(place, ui.make_persistent_id((self.title, "other card")), Sense::click());
+        let enabled = ui.is_enabled();
+        let words = fill("{title}: show another plot here", &[("title", &self.title)]);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, &words));
+        let sign = Rect::from_center_size(pos2(title.right() + 11.0, title.center().y), vec2(16.0, 16.0));
+        icon::paint(ui.painter(), sign, Icon::ChevronDown, tokens.text_weak);
+        let mut chosen = None;
+        Popup::menu(&response).show(|ui| {
+            for (index, other) in self.among.iter().enumerate() {
+                if ui.selectable_label(*other == self.title, *other).clicked() {
+                    chosen = Some(index);
+                }
+            }
+            if let Some(term) = terms::meaning(self.title) {
+                ui.separator();
+                ui.set_max_width(MEANING);
+                explanation::meaning(ui, "", term);
+            }
+        });
+        chosen
+    }
+
+    fn title_row(&self, ui: &Ui, rect: Rect) -> Pressed {
         let tokens = theme::tokens(ui);
         let middle = rect.top() + 0.5 * TITLE_ROW + 1.0;
         let at = pos2(rect.left() + MARGIN, middle);
@@ -147,11 +205,21 @@ impl<'a> Card<'a> {
             tokens.text_strong,
         );
         let mut right = rect.right() - 5.0;
+        let chosen = if self.among.is_empty() {
+            let id = ui.make_persistent_id((self.title, "meaning"));
+            explained(ui.interact(title.expand2(vec2(0.0, 4.0)), id, Sense::CLICK), self.title);
+            None
+        } else {
+            self.choose(ui, title)
+        };
         let (mut pressed, mut export) = (None, None);
-        let fit = views::changed(ui.ctx()).then(|| (Icon::Reset, tr("Fit the view")));
-        for (index, (icon, label)) in
-            self.buttons.iter().enumerate().rev().chain(fit.iter().map(|fit| (FIT, fit)))
-        {
+        let held = views::held(ui.ctx());
+        let hold =
+            held.map(|held| (Icon::Lock, if held { tr("Let the axes go") } else { tr("Hold the axes") }));
+        let changed = held == Some(false) && views::changed(ui.ctx());
+        let fit = changed.then(|| (Icon::Reset, tr("Fit the view")));
+        let own = hold.iter().map(|hold| (HOLD, hold)).chain(fit.iter().map(|fit| (FIT, fit)));
+        for (index, (icon, label)) in self.buttons.iter().enumerate().rev().chain(own) {
             let place = Rect::from_center_size(
                 pos2(right - 0.5 * BUTTON_SIDE, middle),
                 egui::Vec2::splat(BUTTON_SIDE),
@@ -159,6 +227,10 @@ impl<'a> Card<'a> {
             let id = ui.make_persistent_id((self.title, "card button", index));
             let response: Response = ui.interact(place, id, Sense::click());
             icon::paint_button(ui, place, &response, *icon, &format!("{label}: {}", self.title));
+            if index == HOLD && held == Some(true) {
+                let sign = Rect::from_center_size(place.center(), egui::Vec2::splat(13.0));
+                icon::paint(ui.painter(), sign, *icon, tokens.accent);
+            }
             if *icon == Icon::Download {
                 Popup::menu(&response).show(|ui| {
                     for (format, name) in Format::ALL {
@@ -166,9 +238,14 @@ impl<'a> Card<'a> {
                             export = Some(format);
                         }
                     }
+                    if has_clips(ui.ctx()) && ui.button(tr("Clip (video)")).clicked() {
+                        pressed = Some(Icon::Record);
+                    }
                 });
-            } else if response.clicked() && index == FIT {
+            } else if response.clicked() && (index == FIT || (index == HOLD && held == Some(true))) {
                 views::fit(ui.ctx());
+            } else if response.clicked() && index == HOLD {
+                views::hold(ui.ctx());
             } else if response.clicked() {
                 pressed = Some(*icon);
             }
@@ -178,11 +255,19 @@ impl<'a> Card<'a> {
         let font = fonts::regular(theme::size::SMALL);
         let hint = ui.painter().layout_no_wrap(self.hint.to_owned(), font, tokens.text_weak);
         let left = right - 4.0 - hint.size().x;
-        if left > title.right() + 14.0 {
+        if left > title.right() + if self.among.is_empty() { 14.0 } else { 30.0 } {
             ui.painter().galley(pos2(left, middle - 0.5 * hint.size().y), hint, tokens.text_weak);
         }
-        (pressed, export)
+        Pressed { pressed, export, chosen }
     }
+}
+
+/// What was pressed in a title row.
+#[derive(Default)]
+struct Pressed {
+    pressed: Option<Icon>,
+    export: Option<Format>,
+    chosen: Option<usize>,
 }
 
 #[cfg(test)]

@@ -41,6 +41,12 @@ pub enum Icon {
     Share,
     /// Two sheets: copy.
     Copy,
+    /// A letter, small and large: size of type.
+    Type,
+    /// A disc in a ring: record.
+    Record,
+    /// A padlock: hold the axes.
+    Lock,
     /// A globe: choose a language.
     Globe,
     /// Three lines: menu.
@@ -142,6 +148,27 @@ pub fn paint(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
             let sheet = |x: f32, y: f32| Rect::from_min_max(at(x, y), at(x + 1.05, y + 1.2));
             painter.rect_stroke(sheet(-0.25, -0.4), CornerRadius::same(2), stroke, egui::StrokeKind::Middle);
             line(&[(-0.5, 0.35), (-0.8, 0.35), (-0.8, -0.85), (0.3, -0.85), (0.3, -0.65)]);
+        }
+        Icon::Type => {
+            line(&[(-0.95, 0.75), (-0.55, -0.2), (-0.15, 0.75)]);
+            line(&[(-0.8, 0.4), (-0.3, 0.4)]);
+            line(&[(-0.1, 0.75), (0.45, -0.85), (1.0, 0.75)]);
+            line(&[(0.12, 0.2), (0.78, 0.2)]);
+        }
+        Icon::Record => {
+            painter.circle_stroke(rect.center(), side * 0.45, stroke);
+            painter.circle_filled(rect.center(), side * 0.25, colour);
+        }
+        Icon::Lock => {
+            solid(&[(-0.6, -0.1), (0.6, -0.1), (0.6, 0.85), (-0.6, 0.85)]);
+            let bow = (0..=12).map(|i| {
+                let angle = PI + PI * i as f32 / 12.0;
+                at(0.38 * angle.cos(), -0.35 + 0.45 * angle.sin())
+            });
+            painter.add(Shape::line(
+                [at(-0.38, -0.1)].into_iter().chain(bow).chain([at(0.38, -0.1)]).collect(),
+                stroke,
+            ));
         }
         Icon::Globe => {
             let ring = |width: f32| {

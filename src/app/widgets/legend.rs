@@ -2,22 +2,30 @@
 
 use egui::{Color32, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::explanation::explained;
 use super::recorder;
+use super::row::{self, row};
 use super::series::Series;
 use crate::app::fonts;
 use crate::app::theme;
 use crate::export::Pen;
 
+/// Width of a sample with the space beside it, points; and where there is little room.
+const SAMPLE: f32 = 25.0;
+const SHORT_SAMPLE: f32 = 20.0;
+
 /// A sample of the curve and its name.
 pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
     recorder::name(ui.ctx(), series, label);
     let tokens = theme::tokens(ui);
+    let sample = if row::is_low(ui.ctx()) { SHORT_SAMPLE } else { SAMPLE };
     let galley =
         ui.painter().layout_no_wrap(label.to_owned(), fonts::regular(theme::size::SMALL), tokens.text_weak);
-    let (rect, response) = ui.allocate_exact_size(vec2(28.0 + galley.size().x, 18.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(sample + galley.size().x, 18.0), Sense::CLICK);
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, label));
-    let (left, right) = (pos2(rect.left() + 1.0, rect.center().y), pos2(rect.left() + 21.0, rect.center().y));
+    let (left, right) =
+        (pos2(rect.left() + 1.0, rect.center().y), pos2(rect.left() + sample - 7.0, rect.center().y));
     let colour = series.colour(tokens);
     match series.pen() {
         Pen::Line(width) => {
@@ -36,9 +44,9 @@ pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
         }
         pen => paint_mark(ui, left.lerp(right, 0.5), pen, colour),
     }
-    let at = pos2(rect.left() + 27.0, rect.center().y - 0.5 * galley.size().y);
+    let at = pos2(rect.left() + sample - 1.0, rect.center().y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.text_weak);
-    response
+    explained(response, label)
 }
 
 /// A mark as plots draw it.
@@ -74,10 +82,10 @@ fn paint_mark(ui: &Ui, at: egui::Pos2, pen: Pen, colour: Color32) {
     }
 }
 
-/// A row of samples; it breaks where it is too narrow.
+/// A row of samples.
 pub fn legend(ui: &mut Ui, entries: &[(Series, &str)]) {
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing = vec2(14.0, 0.0);
+    row(ui, |ui| {
+        ui.spacing_mut().item_spacing = vec2(if row::is_low(ui.ctx()) { 6.0 } else { 10.0 }, 0.0);
         for (series, label) in entries {
             legend_entry(ui, *series, label);
         }

@@ -39,9 +39,9 @@ pub enum Series {
     FromRest,
     /// The best that there is: very long dashes.
     Best,
-    /// Reached by a sweep upwards: small discs.
+    /// Reached by a sweep upwards: rings, within which the others show.
     Up,
-    /// Reached by a sweep downwards: small rings.
+    /// Reached by a sweep downwards: small discs.
     Down,
     /// What a sweep has not settled at: hollow diamonds.
     Unsettled,
@@ -105,8 +105,8 @@ impl Series {
             Self::Reached => Pen::Rings(6.5),
             Self::FromRest => Pen::Diamonds(4.0),
             Self::Best => Pen::Dashes(2.4, 20.0),
-            Self::Up => Pen::Points(2.6),
-            Self::Down => Pen::Rings(3.2),
+            Self::Up => Pen::Rings(3.8),
+            Self::Down => Pen::Points(1.7),
             Self::Unsettled => Pen::HollowDiamonds(4.0),
             Self::Stable => Pen::Line(2.4),
             Self::Unstable => Pen::Dashes(1.5, 5.0),

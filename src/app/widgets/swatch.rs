@@ -2,7 +2,9 @@
 
 use egui::{Color32, Mesh, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
+use super::explanation::explained;
 use super::recorder;
+use super::row::row;
 use crate::app::text::fill;
 use crate::app::{fonts, theme};
 use crate::export::figure::Key;
@@ -18,9 +20,9 @@ pub enum Filling {
     Hatching,
 }
 
-/// Filled squares with their meaning; the row breaks where it is too narrow.
+/// A row of filled squares with their meaning.
 pub fn swatches(ui: &mut Ui, entries: &[(Filling, &str)]) {
-    ui.horizontal_wrapped(|ui| {
+    row(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(12.0, 0.0);
         let danger = theme::tokens(ui).danger;
         for (filling, meaning) in entries {
@@ -36,7 +38,7 @@ fn swatch(ui: &mut Ui, filling: Filling, meaning: &str) -> Response {
     let font = fonts::regular(theme::size::SMALL);
     let galley = ui.painter().layout_no_wrap(meaning.to_owned(), font, tokens.text_weak);
     let size = vec2(SIDE + 6.0 + galley.size().x, 18.0);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(size, Sense::CLICK);
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, meaning));
     let square = Rect::from_center_size(pos2(rect.left() + 0.5 * SIDE, rect.center().y), vec2(SIDE, SIDE));
@@ -48,7 +50,7 @@ fn swatch(ui: &mut Ui, filling: Filling, meaning: &str) -> Response {
     }
     let at = pos2(rect.left() + SIDE + 6.0, rect.center().y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.text_weak);
-    response
+    explained(response, meaning)
 }
 
 fn hatch(ui: &Ui, square: Rect) {

@@ -1,6 +1,7 @@
 //! What fingers are for. A finger on a plot scrolls the page, as everywhere else on a phone, and two of them zoom the
 //! plot; on a control made for dragging it drags. A mouse drags plots, too.
 
+use egui::style::ScrollAnimation;
 use egui::{Context, Event, Id, Pos2, Rect, TouchPhase, Ui};
 
 /// Farther than a press may move and still be a click, points.
@@ -12,6 +13,10 @@ struct Fingers {
     used: bool,
     /// What is dragged rather than scrolled.
     grips: Vec<Rect>,
+    /// What comes in the next picture.
+    late: Vec<Event>,
+    /// How far what is touched is to be scrolled, points.
+    turn: f32,
 }
 
 fn change<T>(context: &Context, with: impl FnOnce(&mut Fingers) -> T) -> T {
@@ -32,6 +37,7 @@ pub fn begin_frame(context: &Context) {
     });
     change(context, |fingers| {
         fingers.grips.clear();
+        fingers.turn = 0.0;
         fingers.used = touched || (fingers.used && !pointed);
     });
 }
@@ -47,9 +53,42 @@ pub fn grip(ui: &Ui, rect: Rect) {
     change(ui.ctx(), |fingers| fingers.grips.push(rect));
 }
 
+/// Scrolls what is around by a finger that is on something else than the ground.
+pub fn scroll(context: &Context, turn: f32) {
+    change(context, |fingers| fingers.turn += turn);
+}
+
+/// Carries that out. Call it at the end of what scrolls: areas within would take it for theirs.
+pub fn scrolled(ui: &Ui) {
+    let turn = change(ui.ctx(), |fingers| std::mem::take(&mut fingers.turn));
+    if turn != 0.0 {
+        ui.scroll_with_delta_animation(egui::vec2(0.0, turn), ScrollAnimation::none());
+    }
+}
+
 /// Whether a finger here drags something.
 pub fn is_grip(context: &Context, place: Pos2) -> bool {
     change(context, |fingers| fingers.grips.iter().any(|rect| rect.contains(place)))
+}
+
+/// Lets a finger that came and went within one slow picture be seen in two: where it is gone again before anything was
+/// drawn, egui finds nothing under it, and the tap would be lost.
+pub fn part_taps(context: &Context, events: &mut Vec<Event>) {
+    let mut all = change(context, |fingers| std::mem::take(&mut fingers.late));
+    all.append(events);
+    let comes = |event: &Event| matches!(event, Event::Touch { phase: TouchPhase::Start, .. });
+    let goes = |event: &Event| matches!(event, Event::PointerButton { pressed: false, .. });
+    let presses = |event: &Event| matches!(event, Event::PointerButton { pressed: true, .. });
+    let end = all.iter().position(presses).and_then(|press| {
+        let gone = all[press..].iter().position(goes)? + press;
+        all[..gone].iter().any(comes).then_some(gone)
+    });
+    let late = end.map_or_else(Vec::new, |end| all.split_off(end));
+    if !late.is_empty() {
+        context.request_repaint();
+    }
+    change(context, |fingers| fingers.late = late);
+    *events = all;
 }
 
 /// Ends the press of a finger that the browser has taken for scrolling: nobody else tells that it is over. It must not
@@ -83,6 +122,27 @@ mod tests {
             seen(&ui.interact(area, Id::unique("plot"), Sense::click()));
         });
         output.drop_without_applying_deltas();
+    }
+
+    #[test]
+    fn a_tap_within_one_slow_picture_is_a_click() {
+        let context = Context::default();
+        context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
+        let mut clicks = 0;
+        let mut seen = |response: &egui::Response| clicks += usize::from(response.clicked());
+        frame(&context, vec![], &mut seen);
+        let gone = [press(false), Event::PointerGone, touch(TouchPhase::End)];
+        let mut events = vec![press(true), touch(TouchPhase::Start)];
+        events.extend(gone);
+        part_taps(&context, &mut events);
+        assert_eq!(events, [press(true), touch(TouchPhase::Start)]);
+        frame(&context, events, &mut seen);
+        // Another one has come meanwhile, and waits for its turn.
+        let mut events = vec![press(true), touch(TouchPhase::Start)];
+        part_taps(&context, &mut events);
+        assert_eq!(events.len(), 5);
+        frame(&context, events, &mut seen);
+        assert_eq!(clicks, 1);
     }
 
     fn press(pressed: bool) -> Event {

@@ -178,7 +178,11 @@ fn frequencies(system: &ReducedSystem, window: (f64, f64), count: usize) -> Resu
 }
 
 /// Where `f` is highest between the ends of a bracket that holds one peak, by as many golden sections.
-pub(super) fn highest_place(f: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64), sections: usize) -> f64 {
+pub(super) fn highest_place(
+    mut f: impl FnMut(f64) -> f64,
+    (mut low, mut high): (f64, f64),
+    sections: usize,
+) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut a, mut b) = (high - golden * (high - low), low + golden * (high - low));
     let (mut at_a, mut at_b) = (f(a), f(b));

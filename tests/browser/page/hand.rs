@@ -54,6 +54,12 @@ impl Page {
         self.browser.devtools("Emulation.setTouchEmulationEnabled", &parameters);
     }
 
+    /// From now on the page is shown as on a phone whose screen has so many pixels a point.
+    pub(crate) fn emulate_phone(&self, width: u32, height: u32, ratio: f64) {
+        let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": ratio, "mobile": true });
+        self.browser.devtools("Emulation.setDeviceMetricsOverride", &metrics);
+    }
+
     /// Moves a finger.
     pub(crate) fn swipe(&self, from: (f64, f64), to: (f64, f64)) {
         let mut moves = vec![

@@ -11,7 +11,6 @@ use harvester_lab::app::lessons::{LessonId, STEPS, course, facts};
 use harvester_lab::app::view::{Tab, View};
 use harvester_lab::app::{fonts, link};
 use rayon::prelude::*;
-use serde_json::Value;
 
 /// The lessons with their names.
 fn lessons() -> Vec<(LessonId, &'static Lesson)> {
@@ -55,41 +54,6 @@ fn there_are_at_least_eight_lessons_of_a_few_steps_that_begin_with_a_view() {
         let tasks = lesson.steps.iter().filter(|step| step.goal.is_some()).count();
         assert!(tasks >= 2, "{id} gives too little to do");
     }
-}
-
-/// Entries that the page knows, by what they stand in.
-const ENTRIES: [(&str, &[&str]); 5] = [
-    ("lesson", &["title", "summary", "minutes", "steps"]),
-    ("steps", &["text", "view", "goal", "question", "claims"]),
-    ("goal", &["task", "conditions", "show", "reaction"]),
-    ("question", &["text", "answers"]),
-    ("answers", &["text", "reply", "right"]),
-];
-
-fn misspelt(place: &str, value: &Value, found: &mut Vec<String>) {
-    let Some((_, known)) = ENTRIES.iter().find(|(name, _)| *name == place) else { return };
-    for (name, entry) in value.as_object().into_iter().flatten() {
-        if !known.contains(&name.as_str()) {
-            found.push(format!("{name} in {place}"));
-        }
-        match entry {
-            Value::Array(parts) => parts.iter().for_each(|part| misspelt(name, part, found)),
-            part => misspelt(name, part, found),
-        }
-    }
-}
-
-#[test]
-fn no_entry_of_a_file_is_misspelt() {
-    for (id, _) in lessons() {
-        let (lesson, mut found) = (serde_json::from_str(id.source()).expect("JSON"), Vec::new());
-        misspelt("lesson", &lesson, &mut found);
-        assert!(found.is_empty(), "{id}: {found:?}");
-    }
-    let mut found = Vec::new();
-    let wrong = serde_json::json!({ "steps": [{ "text": {}, "goal": { "shows": "" } }] });
-    misspelt("lesson", &wrong, &mut found);
-    assert_eq!(found, ["shows in goal"]);
 }
 
 #[test]

@@ -37,6 +37,7 @@ fn every_number_in_the_texts_is_claimed_or_set() {
     for (place, id, step, view, number) in steps() {
         let mut set: Vec<f64> = Vec::new();
         let mut fragments: Vec<String> = Vec::from_iter(step.view.clone());
+        fragments.extend(step.question.as_ref().and_then(|question| question.reveal.clone()));
         if let Some(goal) = &step.goal {
             fragments.push(goal.show.clone());
             set.extend(goal.conditions.iter().flat_map(|one| [one.from, one.to]).flatten());

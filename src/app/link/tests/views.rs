@@ -7,8 +7,11 @@ use proptest::sample::select;
 
 use crate::app::lessons::{LessonId, STEPS};
 use crate::app::text::Language;
-use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched};
+use crate::app::view::design::{
+    Aim, DROPS, DesignView, FREQUENCIES, POWERS, Page, SCATTERS, SearchView, Side, Watched,
+};
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
+use crate::app::view::shake::ShakeView;
 use crate::app::view::{MapWindow, Output, Panel, SweepView, Tab, View};
 use crate::dynamics::attractors::sweep::Dwell;
 use crate::model::layers::Sheet;
@@ -136,8 +139,15 @@ fn search() -> impl Strategy<Value = SearchView> {
 }
 
 fn design() -> impl Strategy<Value = DesignView> {
-    const PAGES: [Page; 6] =
-        [Page::Harvest, Page::Load, Page::Materials, Page::Trust, Page::Search, Page::Measured];
+    const PAGES: [Page; 7] = [
+        Page::Harvest,
+        Page::Load,
+        Page::Materials,
+        Page::Trust,
+        Page::Search,
+        Page::Tolerances,
+        Page::Measured,
+    ];
     const WATCHED: [Watched; 5] =
         [Watched::Power, Watched::PerG2, Watched::Voltage, Watched::Peak, Watched::Tip];
     let resonance = || select(&Resonance::ALL[..]);
@@ -150,20 +160,33 @@ fn design() -> impl Strategy<Value = DesignView> {
     let front = (select(&PAGES[..]), select(&WATCHED[..]), 1..=8_usize, resonance(), quantity);
     let flags = any::<[bool; 3]>();
     let window = option::of((within(FREQUENCIES), within(FREQUENCIES)));
-    (front, flags, window, option::of(within(POWERS)), limits(), search()).prop_map(
-        |((page, watched, mode, resonance, quantity), flags, window, least, limits, search)| DesignView {
-            page,
-            dimensionless: flags[0],
-            holds_acceleration: flags[1],
-            watched,
-            logarithmic: flags[2],
+    let watts = (option::of(within(POWERS)), within(DROPS), within(SCATTERS));
+    (front, flags, window, watts, limits(), search()).prop_map(
+        |(
+            (page, watched, mode, resonance, quantity),
+            flags,
             window,
-            least,
+            (least, diode_drop, scatter),
             limits,
-            mode,
-            resonance,
-            quantity,
             search,
+        )| {
+            DesignView {
+                page,
+                dimensionless: flags[0],
+                holds_acceleration: flags[1],
+                watched,
+                logarithmic: flags[2],
+                window,
+                least,
+                diode_drop,
+                scatter,
+                limits,
+                mode,
+                resonance,
+                quantity,
+                search,
+                shake: ShakeView::default(),
+            }
         },
     )
 }

@@ -24,7 +24,7 @@ const WIDE: f32 = 1200.0;
 const TWO_COLUMNS: f32 = 700.0;
 /// Highest part of the page that the guide below takes, with two columns and with one.
 const LOW: f32 = 0.28;
-const HIGH: f32 = 0.38;
+const HIGH: f32 = 0.3;
 /// Space between the guide's row of buttons and its text.
 const SPACE: f32 = 8.0;
 

@@ -14,8 +14,10 @@ use crate::app::{fonts, theme};
 
 /// Least width and height of a card.
 const WIDTH: f32 = 330.0;
-const HEIGHT: f32 = 128.0;
+const HEIGHT: f32 = 144.0;
 const MARGIN: f32 = 14.0;
+/// Side of a lesson's picture.
+const PICTURE: f32 = 50.0;
 /// Widest that the introduction runs.
 const MEASURE: f32 = 760.0;
 
@@ -25,7 +27,8 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     ui.add_space(GAP);
     let columns = (((ui.available_width() + GAP) / (WIDTH + GAP)) as usize).clamp(1, 4);
     let width = ((ui.available_width() - GAP * (columns - 1) as f32) / columns as f32).floor();
-    let lessons: Vec<_> = LessonId::all().filter_map(|id| Some((id, id.lesson()?))).collect();
+    let ids = [LessonId::own()].into_iter().chain(LessonId::all());
+    let lessons: Vec<_> = ids.filter_map(|id| Some((id, id.lesson()?))).collect();
     for row in lessons.chunks(columns) {
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
@@ -62,6 +65,17 @@ fn introduction(context: &Context<'_>, ui: &mut Ui) {
     });
 }
 
+/// The lines of a lesson's picture.
+fn draw(ui: &Ui, place: Rect, lines: &[Vec<[u8; 2]>]) {
+    let tokens = theme::tokens(ui);
+    let at = |[x, y]: &[u8; 2]| {
+        place.left_bottom() + vec2(f32::from(*x) * place.width(), -f32::from(*y) * place.height()) / 99.0
+    };
+    for (line, colour) in lines.iter().zip([tokens.accent, tokens.warning, tokens.accent, tokens.text_weak]) {
+        ui.painter().add(egui::Shape::line(line.iter().map(at).collect(), egui::Stroke::new(1.8, colour)));
+    }
+}
+
 /// A card to click.
 fn card(context: &Context<'_>, ui: &mut Ui, id: LessonId, lesson: &Lesson, width: f32) -> Response {
     let tokens = theme::tokens(ui);
@@ -76,12 +90,19 @@ fn card(context: &Context<'_>, ui: &mut Ui, id: LessonId, lesson: &Lesson, width
     let ground = if lit { tokens.field } else { tokens.card };
     let stroke = egui::Stroke::new(1.0, edge);
     ui.painter().rect(rect, theme::radius::CARD, ground, stroke, egui::StrokeKind::Inside);
+    let picture =
+        Rect::from_min_size(rect.right_top() + vec2(-MARGIN - PICTURE, MARGIN), vec2(PICTURE, PICTURE));
+    let room = if lesson.picture.is_empty() { 0.0 } else { PICTURE + 10.0 };
+    draw(ui, picture.shrink(4.0), &lesson.picture);
     let inner = rect.shrink(MARGIN);
     let foot = Rect::from_min_max(pos2(inner.left(), inner.bottom() - 21.0), inner.max);
     let down = Layout::top_down(Align::Min);
-    let mut head = ui.new_child(UiBuilder::new().max_rect(inner.with_max_y(foot.top())).layout(down));
+    let mut head = ui.new_child(
+        UiBuilder::new().max_rect(inner.with_max_y(foot.top()).with_max_x(inner.right() - room)).layout(down),
+    );
     head.spacing_mut().item_spacing.y = 4.0;
-    let heading = RichText::new(format!("{}  {title}", id.number()));
+    let heading = if id == LessonId::own() { title.to_owned() } else { format!("{}  {title}", id.number()) };
+    let heading = RichText::new(heading);
     let heading = heading.font(fonts::semibold(theme::size::TITLE)).color(tokens.text_strong);
     head.add(egui::Label::new(heading).wrap().selectable(false));
     let summary = text::job(&head, lesson.summary.get(), tokens.text);

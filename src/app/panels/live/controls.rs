@@ -25,7 +25,7 @@ const SPEED_WIDTH: f32 = 380.0;
 const GROUP_GAP: f32 = 12.0;
 
 /// Draws the card.
-pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
+pub(in crate::app::panels) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     Card::new("").hugging().show(ui, |ui| {
         ui.horizontal_wrapped(|ui| buttons(context, ui));
         ui.add_space(2.0);

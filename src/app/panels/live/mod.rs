@@ -5,4 +5,5 @@ mod readout;
 mod tab;
 pub(super) mod traced;
 
+pub(super) use controls::show as controls;
 pub(in crate::app) use tab::show;

@@ -2,7 +2,8 @@
 
 use egui::accesskit::{Action, ActionData};
 use egui::{
-    CornerRadius, Event, EventFilter, Id, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
+    CornerRadius, Event, EventFilter, Id, Key, Pos2, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2,
+    vec2,
 };
 
 use super::mapping::Mapping;
@@ -19,6 +20,8 @@ const FINEST: f64 = 0.04;
 const NEAR: f64 = 0.02;
 /// How far from the track a finger moves the thumb finely, points.
 const FAR: f32 = 60.0;
+/// How far a finger moves before it is clear whether it slides the thumb or scrolls the page, points.
+const DECIDED: f32 = 8.0;
 
 /// What the track reports.
 pub(super) struct Outcome {
@@ -78,6 +81,26 @@ struct Grab {
     offset: f32,
     /// While it moves finely: where the pointer was when that began, or was last, and the thumb then.
     fine: Option<(f32, f64)>,
+    /// A finger: where it came down, and what it is about.
+    finger: Option<(Pos2, Way)>,
+}
+
+/// What a finger on a track is about. Its first movement decides.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    Open,
+    Slides,
+    Scrolls,
+}
+
+/// What the finger is about after `moved` from where it came down.
+fn way(before: Way, moved: egui::Vec2) -> Way {
+    match before {
+        Way::Open if moved.length() < DECIDED => Way::Open,
+        Way::Open if moved.y.abs() > moved.x.abs() => Way::Scrolls,
+        Way::Open => Way::Slides,
+        decided => decided,
+    }
 }
 
 /// The fraction the pointer asks for, and whether finely. The thumb keeps the offset at which it was grabbed; with Shift
@@ -89,16 +112,38 @@ fn dragged_to(ui: &Ui, response: &Response, rail: Rect, now: f64, places: &[f64]
     let thumb_x = rail.left() + rail.width() * now as f32;
     let aside = (pointer.y - rail.center().y).abs() > FAR && touch::in_use(ui.ctx());
     let fine = aside || ui.input(|input| input.modifiers.shift);
+    let here = (f64::from((pointer.x - rail.left()) / rail.width()), false);
     if ui.input(|input| input.pointer.any_pressed()) {
-        response.request_focus();
         let offset = pointer.x - thumb_x;
         let held = offset.abs() <= THUMB;
-        grab = Grab { offset: if held { offset } else { 0.0 }, fine: fine.then_some((pointer.x, now)) };
+        // In a slow picture the finger has moved on already.
+        let down = ui.input(|input| input.pointer.press_origin()).unwrap_or(pointer);
+        let finger = touch::in_use(ui.ctx()).then_some((down, Way::Open));
+        let offset = if held { offset } else { 0.0 };
+        grab = Grab { offset, fine: fine.then_some((pointer.x, now)), finger };
         ui.data_mut(|data| data.insert_temp(id, grab));
-        if held {
+        if finger.is_some() {
             return None;
         }
-        return Some((f64::from((pointer.x - rail.left()) / rail.width()), false));
+        response.request_focus();
+        return (!held).then_some(here);
+    }
+    if let Some((down, before)) = grab.finger {
+        let moved = pointer - down;
+        let way = way(before, moved);
+        grab.finger = Some((down, way));
+        ui.data_mut(|data| data.insert_temp(id, grab));
+        match way {
+            Way::Scrolls => {
+                let turn = ui.input(|input| input.pointer.delta().y);
+                touch::scroll(ui.ctx(), if before == Way::Open { moved.y } else { turn });
+                return None;
+            }
+            // A tap.
+            Way::Open => return response.drag_stopped().then_some(here),
+            Way::Slides if before == Way::Open => response.request_focus(),
+            Way::Slides => {}
+        }
     }
     if response.drag_stopped() {
         return None;

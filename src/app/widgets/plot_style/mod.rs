@@ -89,7 +89,7 @@ fn look<'a>(ui: &egui::Ui, id: egui::Id, x: &Axis, y: &Axis) -> Plot<'a> {
         .show_crosshair(false)
         .allow_axis_zoom_drag(false)
         .allow_boxed_zoom(false)
-        .set_margin_fraction(egui::vec2(0.06, 0.08))
+        .set_margin_fraction(views::MARGIN)
         .label_formatter(move |position| match position {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
                 let values = readout(&x_readout, &y_readout, position);

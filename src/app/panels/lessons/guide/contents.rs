@@ -24,7 +24,7 @@ pub(super) fn asked(context: &mut Context<'_>, ui: &mut Ui, shown: Shown) {
         ui.add_space(8.0);
     }
     if let Some(question) = &shown.step.question {
-        to_answer(context, ui, question, shown.progress.answer);
+        to_answer(context, ui, question, shown);
     }
 }
 
@@ -58,26 +58,40 @@ fn to_do(context: &mut Context<'_>, ui: &mut Ui, goal: &Goal, reached: bool) {
     });
 }
 
-fn to_answer(context: &mut Context<'_>, ui: &mut Ui, question: &Question, chosen: Option<usize>) {
+fn to_answer(context: &mut Context<'_>, ui: &mut Ui, question: &Question, shown: Shown) {
     let tokens = theme::tokens(ui);
+    let chosen = shown.progress.answer;
+    // Nothing is said about a prediction before it is shown what comes.
+    let open = question.reveal.is_some() && !shown.progress.revealed;
+    if question.reveal.is_some() {
+        let lead = if open { tr("Predict first") } else { tr("What came") };
+        ui.label(RichText::new(lead).font(fonts::semibold(theme::size::BODY)).color(tokens.accent));
+    }
     text::paragraph(ui, &format!("**{}**", question.text.get()), tokens.text);
     for (index, answer) in question.answers.iter().enumerate() {
         let mine = chosen == Some(index);
         let (sign, edge) = match (mine, answer.right) {
             (false, _) => ("", tokens.text),
+            (true, _) if open => ("• ", tokens.accent),
             (true, true) => ("✓ ", tokens.ok),
             (true, false) => ("✕ ", tokens.warning),
         };
         let words = format!("{sign}{}", answer.text.get());
         let words = text::job(ui, &words, edge);
         let button = Button::new(words).wrap().min_size(vec2(ui.available_width(), 0.0)).fill(tokens.field);
-        if ui.add(button).clicked() {
+        if ui.add_enabled(question.reveal.is_none() || open, button).clicked() {
             context.commands.push(Command::Lesson(Action::Answer(index)));
         }
-        if mine {
+        if mine && !open {
             boxed(ui, edge, &mut |ui| {
                 text::paragraph(ui, answer.reply.get(), tokens.text);
             });
+        }
+    }
+    if open {
+        let words = RichText::new(tr("Show what comes")).font(fonts::semibold(theme::size::BODY));
+        if ui.add_enabled(chosen.is_some(), Button::new(words)).clicked() {
+            context.commands.push(Command::Lesson(Action::Reveal));
         }
     }
 }

@@ -30,6 +30,8 @@ impl Shown {
     /// Whether what the step asks for has been done.
     pub(super) fn is_done(&self) -> bool {
         (self.step.goal.is_none() || self.progress.reached)
-            && (self.step.question.is_none() || self.progress.answer.is_some())
+            && self.step.question.as_ref().is_none_or(|question| {
+                self.progress.answer.is_some() && (question.reveal.is_none() || self.progress.revealed)
+            })
     }
 }
