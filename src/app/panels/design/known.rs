@@ -8,8 +8,12 @@ use crate::app::panels::device::published_name;
 use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::widgets::Card;
-use crate::app::widgets::number::{significant, with_unit};
+use crate::app::widgets::number::{round_significant, significant, with_unit};
 use crate::questions::design::published::{Origin, Published, What};
+
+/// Digits that are shown: all that were printed, and those that can differ.
+const PRINTED: usize = 6;
+const COMPUTED: usize = 5;
 
 /// What is computed for each printed number, in the order of the devices: it depends on nothing in view.
 fn computed() -> &'static [Vec<Option<f64>>] {
@@ -41,8 +45,8 @@ pub(super) fn show(ui: &mut Ui) {
                 let numbers = fill(
                     "{published} published, {computed} here: {difference}",
                     &[
-                        ("published", &value(printed.what, printed.value)),
-                        ("computed", &value(printed.what, computed)),
+                        ("published", &value(printed.what, printed.value, PRINTED)),
+                        ("computed", &value(printed.what, computed, COMPUTED)),
                         ("difference", &difference(computed / printed.value - 1.0)),
                     ],
                 );
@@ -73,12 +77,14 @@ fn in_words(what: What) -> String {
     }
 }
 
-fn value(what: What, value: f64) -> String {
-    match what {
-        What::ShortCircuit | What::OpenCircuit => format!("{} Hz", significant(value, 4)),
-        What::PowerPerG2(..) => format!("{} mW/g²", significant(1e3 * value, 5)),
-        What::Omega(_) => significant(value, 5),
-    }
+/// In so many digits and its unit.
+fn value(what: What, value: f64, digits: usize) -> String {
+    let (factor, unit) = match what {
+        What::ShortCircuit | What::OpenCircuit => (1.0, " Hz"),
+        What::PowerPerG2(..) => (1e3, " mW/g²"),
+        What::Omega(_) => (1.0, ""),
+    };
+    round_significant(factor * value, digits).to_string() + unit
 }
 
 /// In per cent; what rounds to nothing is less than a hundredth.
