@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::damping::Damping;
+use crate::model::layers::Laminate;
 use crate::model::{
     Device, ElectricalScaling, MAX_MODES, ModelError, Parameter, ParameterSet, Parameters, ReducedSystem,
     Units, state_dimension,
@@ -93,6 +95,26 @@ impl Scenario {
     /// As [`Device::from_parameters`].
     pub fn device(&self) -> Result<Device, ModelError> {
         Device::from_parameters(&self.base(), &self.parameters, self.scaling)
+    }
+
+    /// What layers decide of the device, where the scenario is about one in SI units.
+    ///
+    /// # Errors
+    /// As [`Self::device`].
+    pub fn laminate(&self) -> Result<Option<Laminate>, ModelError> {
+        self.device.map(|_| self.device().map(|device| device.laminate())).transpose()
+    }
+
+    /// Gives the first modes these damping ratios: with one the material takes it all, two set the air's part too.
+    ///
+    /// # Errors
+    /// As [`ReducedSystem::damping_of`]; nothing is changed then.
+    pub fn damp(&mut self, ratios: &[f64]) -> Result<(), ModelError> {
+        let modes = self.model.modes.max(2);
+        let system = ModelChoice { modes, ..self.model }.system(self.parameters)?;
+        let Damping { alpha, air } = system.damping_of(ratios)?;
+        self.parameters = *Parameters::new(ParameterSet { alpha, air, ..self.parameters })?;
+        Ok(())
     }
 
     /// Makes `device` the scenario's: its dimensionless numbers under `scaling` become the ten numbers.

@@ -23,6 +23,7 @@ use super::sweep::{COUNTS, Direction, Sweep, SweepStudy};
 use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::attractors::sweep::{Dwell, SweepPoint};
 use crate::dynamics::{IntegrationError, Motion, RunError};
+use crate::model::layers::Laminate;
 use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
@@ -78,6 +79,9 @@ pub struct HarvestAnswer {
     /// What goes into a store behind a rectifier, at its own excitation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rectified: Option<RectifierAnswer>,
+    /// What the layers of the device decide, or else was given for it; absent where the request is about numbers.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub laminate: Option<Laminate>,
     /// Over frequency, at its own amplitude of the base or of its acceleration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curves: Option<Curves>,
@@ -144,8 +148,9 @@ impl Question for Harvest {
         self.limits.validate()?;
         let operating = operating(&scenario)?;
         let rectified = self.rectifier.map(|rectifier| rectifier.answer(&scenario, budget)).transpose()?;
+        let laminate = scenario.laminate()?;
         let curves = self.frequency.map(|frequency| self.curves(scenario, frequency, budget)).transpose()?;
-        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, rectified, curves })
+        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, rectified, laminate, curves })
     }
 }
 

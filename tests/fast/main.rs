@@ -20,6 +20,7 @@ mod measured;
 mod messages;
 mod own_device;
 mod properties;
+mod published_devices;
 mod rectifier;
 mod reference_values;
 mod spectrum;

@@ -170,8 +170,12 @@ fn every_task_takes_a_device_in_si_units() {
     for task in ["modes", "boundary", "simulate", "orbit", "chart", "sweep", "continue", "curves", "basin"] {
         let by_device = numbers(task, fields.clone()).expect(task);
         let by_numbers = numbers(task, json!({"parameters": same})).expect(task);
-        // A device is turned into numbers with rounding in the last digit.
-        assert!(agree(&read(&by_device), &read(&by_numbers)), "{task}: {by_device} {by_numbers}");
+        // A device is turned into numbers with rounding in the last digit; what it is in SI units is said of it alone.
+        let mut of_device = read(&by_device);
+        if let Some(answer) = of_device.as_object_mut() {
+            answer.remove("device");
+        }
+        assert!(agree(&of_device, &read(&by_numbers)), "{task}: {by_device} {by_numbers}");
     }
     assert!(
         numbers("modes", json!({"device": {"beam_length": -1}}))

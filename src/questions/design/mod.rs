@@ -22,6 +22,7 @@ pub mod peak;
 pub mod plant;
 pub mod point;
 pub mod polish;
+pub mod published;
 pub mod record;
 pub mod rectified;
 pub mod thin;

@@ -68,13 +68,14 @@ impl LinearPart {
         let mobility: f64 = inverse_mass.iter().sum();
         let rate = highest
             + p.alpha * (highest * highest + system.c1.abs() * mobility)
+            + p.air
             + coupling.sqrt()
             + p.kappa / system.capacitance
             + generated;
         Self {
             modes: modes.len(),
             stiffness: modes.iter().map(|mode| mode.omega * mode.omega).collect(),
-            damping: modes.iter().map(|mode| p.alpha * mode.omega * mode.omega).collect(),
+            damping: modes.iter().map(|mode| p.alpha * mode.omega * mode.omega + p.air).collect(),
             drive: modes.iter().map(|mode| factor * mode.eta1 / mode.eta2).collect(),
             generator,
             inverse_mass,

@@ -7,6 +7,7 @@ mod best_load;
 pub(super) mod fitting;
 pub(super) mod going;
 mod held;
+mod known;
 mod limits;
 mod materials;
 pub(super) mod measure;

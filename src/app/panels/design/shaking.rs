@@ -12,8 +12,8 @@ use crate::app::widgets::{Card, ParameterSlider, chips};
 use crate::questions::shake::{Found, Harvested, ShakeAnswer, ShakenRun};
 use crate::scheduler::{Asked as _, Failure, Study as _, Table};
 
-/// Width of a slider.
-const SLIDER: f32 = 260.0;
+/// Least width of a slider where two stand side by side.
+const SLIDER: f32 = 300.0;
 
 /// Asks for the runs.
 pub(in crate::app::panels) fn ask(asking: &mut super::super::spec::Asking<'_>) {
@@ -73,10 +73,13 @@ fn controls(context: &mut Context<'_>, ui: &mut Ui) {
     });
     let name = if shake.by == ShakenBy::Noise { tr("Level, rms") } else { tr("Level, peak") };
     let first = from.min(to);
+    let room = ui.available_width();
+    let side_by_side = 0.5 * (room - ui.spacing().item_spacing.x);
+    let width = if side_by_side >= SLIDER { side_by_side } else { room };
     ui.horizontal_wrapped(|ui| {
         let slider = |ui: &mut Ui, name: &str, value: &mut f64, range: (f64, f64), unit: &str| {
             *value = round_significant(*value, 4);
-            ui.allocate_ui(egui::vec2(SLIDER.min(ui.available_width()), 26.0), |ui| {
+            ui.allocate_ui(egui::vec2(width.floor(), 26.0), |ui| {
                 let slider = ParameterSlider::new(name, "", value, range.0..=range.1);
                 slider.logarithmic().unit(unit).compact().show(ui).changed
             })
