@@ -209,6 +209,8 @@ impl FitStudy {
     /// What is known of the dimensions fitted.
     pub fn fitted(&self) -> Vec<Fitted> {
         let errors = self.normal.as_ref().and_then(Normal::standard_errors);
+        // While damping is left out there are none.
+        let errors = errors.filter(|errors| errors.len() == self.free.len());
         let row = |(k, (dimension, start)): (usize, &(Dimension, f64))| {
             let value = self.place[k].exp();
             let standard_error = errors.as_ref().map(|errors| value * errors[k]);
