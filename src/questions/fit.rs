@@ -20,15 +20,15 @@ const DIFFERENCE: f64 = 1e-4;
 const STEPS: usize = 60;
 const SETTLED: f64 = 1e-7;
 /// Damping at first, by how much it falls and grows, and what of it gives up.
-const DAMPING: f64 = 1e-3;
+const DAMPING: f64 = 0.1;
 const FALLS: f64 = 0.2;
 const GROWS: f64 = 5.0;
 const HOPELESS: f64 = 1e10;
 /// What is added to voltages before their logarithms are compared, over the highest, and most steps in which they are.
 const FLOOR: f64 = 1e-3;
 const COARSE_STEPS: usize = 30;
-/// Longest step of a logarithm: a factor of e.
-const LONGEST: f64 = 1.0;
+/// Longest step of a logarithm.
+const LONGEST: f64 = 0.4;
 
 /// Dimensions that bring the device closest to what was measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -187,7 +187,12 @@ impl FitStudy {
         }
         let highest = fit.data.iter().map(|[_, volts]| *volts).fold(0.0, f64::max);
         Ok(Self {
-            floor: (highest > 0.0).then_some(FLOOR * highest),
+            // Of damping alone no peak moves.
+            floor: free
+                .iter()
+                .any(|(dimension, _)| *dimension != Dimension::Viscosity)
+                .then_some(FLOOR * highest)
+                .filter(|floor| *floor > 0.0),
             place: free.iter().map(|(_, value)| value.ln()).collect(),
             free,
             asked: (scenario, fit),
@@ -204,6 +209,8 @@ impl FitStudy {
     /// What is known of the dimensions fitted.
     pub fn fitted(&self) -> Vec<Fitted> {
         let errors = self.normal.as_ref().and_then(Normal::standard_errors);
+        // While damping is left out there are none.
+        let errors = errors.filter(|errors| errors.len() == self.free.len());
         let row = |(k, (dimension, start)): (usize, &(Dimension, f64))| {
             let value = self.place[k].exp();
             let standard_error = errors.as_ref().map(|errors| value * errors[k]);
@@ -315,8 +322,14 @@ impl FitStudy {
         let slope = slope.collect();
         let Phase::Columns { found, .. } = &mut self.phase else { return };
         found[index] = Some(slope);
-        let columns: Vec<Vec<f64>> = found.iter().flatten().cloned().collect();
+        let mut columns: Vec<Vec<f64>> = found.iter().flatten().cloned().collect();
         if columns.len() == self.free.len() {
+            // Damping makes heights and widths of peaks, and comes last: while they are in the wrong place it would vanish.
+            if self.floor.is_some() {
+                let others = |(dimension, _): &(Dimension, f64)| *dimension != Dimension::Viscosity;
+                let mut kept = self.free.iter().map(others);
+                columns.retain(|_| kept.next().unwrap_or(true));
+            }
             self.normal = Some(Normal::new(&self.residuals(&base), &columns));
             self.begin_step();
         }
@@ -331,11 +344,18 @@ impl FitStudy {
         let longest = step.iter().fold(0.0, |longest: f64, part| longest.max(part.abs()));
         let scale = if longest > LONGEST { LONGEST / longest } else { 1.0 };
         let step: Vec<f64> = step.iter().map(|part| scale * part).collect();
+        let promised = normal.promised(&step);
+        let mut parts = step.iter();
+        let of = |(dimension, _): &(Dimension, f64)| match *dimension {
+            Dimension::Viscosity if self.floor.is_some() => 0.0,
+            _ => parts.next().copied().unwrap_or(0.0),
+        };
+        let step: Vec<f64> = self.free.iter().map(of).collect();
         if longest < SETTLED {
             return self.end(true);
         }
         let place = self.place.iter().zip(&step).map(|(value, part)| value + part).collect();
-        self.phase = Phase::Trial { handed: false, place, promised: normal.promised(&step) };
+        self.phase = Phase::Trial { handed: false, place, promised };
     }
 
     /// Takes the curve after a step, which is kept when it is better.
