@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::model::damping::Damping;
 use crate::model::layers::Laminate;
 use crate::model::{
-    Device, ElectricalScaling, MAX_MODES, ModelError, Parameter, ParameterSet, Parameters, ReducedSystem,
-    Units, state_dimension,
+    Device, ElectricalScaling, Layers, MAX_MODES, ModelError, Parameter, ParameterSet, Parameters,
+    ReducedSystem, Units, state_dimension,
 };
 
 pub use crate::model::ModelChoice;
@@ -23,7 +23,7 @@ pub const END_TIME: (f64, f64) = (1.0, 5000.0);
 pub struct Scenario {
     /// Version of this format.
     pub version: u32,
-    /// The ten dimensionless numbers.
+    /// The dimensionless numbers.
     pub parameters: ParameterSet,
     /// Modes and force law.
     pub model: ModelChoice,
@@ -31,7 +31,7 @@ pub struct Scenario {
     pub initial: Option<Vec<f64>>,
     /// Duration of the run (dimensionless).
     pub t_end: f64,
-    /// What the ten numbers leave open of the device in SI units (see [`Device::from_parameters`]); its other entries
+    /// What the numbers leave open of the device in SI units (see [`Device::from_parameters`]); its other entries
     /// play no role. The paper's device when absent. Nothing dimensionless depends on it. Since version 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub device: Option<Device>,
@@ -47,7 +47,7 @@ pub enum Forgotten {
     Start,
     /// How long it is shown.
     Duration,
-    /// One of the ten numbers, which the question varies; this value stands for all.
+    /// One of the numbers, which the question varies; this value stands for all.
     Number(Parameter, f64),
     /// Damping and dielectric loss, which come with a ceramic.
     Ceramic,
@@ -89,7 +89,7 @@ pub fn counted(
 }
 
 impl Scenario {
-    /// The device in SI units: the ten numbers are what is computed from, so that it always agrees with them.
+    /// The device in SI units: the numbers are what is computed from, so that it always agrees with them.
     ///
     /// # Errors
     /// As [`Device::from_parameters`].
@@ -117,17 +117,22 @@ impl Scenario {
         Ok(())
     }
 
-    /// Makes `device` the scenario's: its dimensionless numbers under `scaling` become the ten numbers.
+    /// Makes `device` the scenario's: its dimensionless numbers under `scaling` become those of the scenario. Its layers, if it
+    /// has any, decide what is theirs, the scaling too.
     ///
     /// # Errors
     /// [`ModelError`] naming what is out of range, in SI units or dimensionless; nothing is changed then.
     pub fn set_device(&mut self, device: Device, scaling: ElectricalScaling) -> Result<(), ModelError> {
+        let (device, scaling) = match device.layers {
+            Some(layers) => (device.with_layers(layers), Layers::SCALING),
+            None => (device, scaling),
+        };
         self.parameters = *Parameters::new(device.renumbered(self.parameters, scaling)?)?;
         (self.device, self.scaling, self.version) = (Some(device), scaling, VERSION);
         Ok(())
     }
 
-    /// Changes what the ten numbers leave open, and the scaling; the numbers are kept, and the rest of the device follows
+    /// Changes what the numbers leave open, and the scaling; the numbers are kept, and the rest of the device follows
     /// them.
     ///
     /// # Errors
@@ -140,7 +145,7 @@ impl Scenario {
     }
 
     /// The same without what plays no role in an answer: of two scenarios that compute the same both are then equal, and
-    /// ask the same question. The device keeps only what the ten numbers leave open.
+    /// ask the same question. The device keeps only what the numbers leave open.
     #[must_use]
     pub fn forgetting(&self, forgotten: &[Forgotten]) -> Self {
         let usual = Self::default();
@@ -173,7 +178,7 @@ impl Scenario {
         Units::of(&self.base(), self.scaling)
     }
 
-    /// The device that says what the ten numbers leave open.
+    /// The device that says what the numbers leave open.
     pub fn base(&self) -> Device {
         self.device.unwrap_or_default()
     }

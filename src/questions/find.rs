@@ -9,9 +9,9 @@ use super::design::evolution::Evolution;
 use super::design::find::{Evaluation, FindQuestion, Objective, Variable, evaluate};
 use super::design::polish::Polish;
 use super::error::{RequestError, failed};
-use super::motions::{Coordinate, at_place};
+use super::motions::Coordinate;
 use super::question::Question;
-use crate::model::{Device, Limits, ModelError, ParameterSet};
+use crate::model::{Device, Limits, ModelError, ParameterSet, Shaking};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Budget, Failure, Order, Piece, Study, complete_within};
 
@@ -40,6 +40,9 @@ pub struct Find {
     /// What must be kept; the voltage by the ceramic where none is given.
     #[serde(default)]
     pub limits: Limits,
+    /// What of the base's motion candidates have in common.
+    #[serde(default)]
+    pub hold: Shaking,
     /// Generations of the search.
     #[serde(default = "default_generations")]
     pub generations: usize,
@@ -97,6 +100,12 @@ pub struct NamedSensitivity {
     pub loss: f64,
 }
 
+/// The peak of the base's acceleration (g) that candidates of a scenario have in common, when they have.
+pub(super) fn held(hold: Shaking, scenario: &Scenario) -> Option<f64> {
+    let p = &scenario.parameters;
+    (hold == Shaking::Acceleration).then(|| scenario.units().acceleration(p.beta, p.omega))
+}
+
 const fn default_objective() -> Objective {
     Objective::Power
 }
@@ -126,7 +135,9 @@ impl Question for Find {
             }
         }
         let variables = self.variables.iter().map(variable).collect::<Result<_, RequestError>>()?;
-        let question = FindQuestion { scenario, variables, objective: self.objective, limits: self.limits };
+        let acceleration = held(self.hold, &scenario);
+        let (objective, limits) = (self.objective, self.limits);
+        let question = FindQuestion { scenario, variables, objective, limits, acceleration };
         let mut study = FindStudy::new(question, self.generations, self.seed)?;
         complete_within(&mut study, budget);
         failed(study.failure())?;
@@ -296,9 +307,7 @@ impl FindStudy {
     /// # Errors
     /// [`ModelError`] when it is no device.
     pub fn scenario(&self, candidate: &Candidate) -> Result<Scenario, ModelError> {
-        let coordinates: Vec<_> =
-            self.question.variables.iter().map(|variable| variable.coordinate).collect();
-        at_place(&self.question.scenario, &coordinates, &candidate.values)
+        self.question.candidate(&candidate.values)
     }
 
     fn values(&self, trial: &[f64]) -> Vec<f64> {

@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 use super::checks::count;
 use super::design::find::{Evaluation, FindQuestion, Objective, Variable};
 use super::error::{RequestError, failed};
-use super::find::Evaluate;
+use super::find::{Evaluate, held};
 use super::motions::Coordinate;
 use super::question::Question;
-use crate::model::{Limits, ModelError};
+use crate::model::{Limits, ModelError, Shaking};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::{Mosaic, Place};
 use crate::scheduler::{Asked, Budget, Failure, Order, Study, complete_within};
@@ -33,6 +33,9 @@ pub struct Map {
     /// What must be kept; the voltage by the ceramic where none is given.
     #[serde(default)]
     pub limits: Limits,
+    /// What of the base's motion cells have in common.
+    #[serde(default)]
+    pub hold: Shaking,
 }
 
 /// A side of the map.
@@ -111,7 +114,9 @@ impl Question for Map {
         count("cells of the map", columns.saturating_mul(rows), CELLS)?;
         let modes = scenario.model.modes;
         let variables = vec![self.x.variable("x", modes)?, self.y.variable("y", modes)?];
-        let question = FindQuestion { scenario, variables, objective: self.objective, limits: self.limits };
+        let acceleration = held(self.hold, &scenario);
+        let (objective, limits) = (self.objective, self.limits);
+        let question = FindQuestion { scenario, variables, objective, limits, acceleration };
         let mut map = DesignMap::new(question, (columns, rows))?;
         complete_within(&mut map, budget);
         failed(map.failure())?;

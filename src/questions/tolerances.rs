@@ -260,6 +260,7 @@ impl ToleranceStudy {
             variables: dimensions.iter().map(variable).collect(),
             objective: Objective::Power,
             limits: asked.limits,
+            acceleration: None,
         };
         Ok(Self {
             nominal_handed: false,

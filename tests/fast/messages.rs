@@ -75,6 +75,7 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
         variables: vec![Variable { coordinate, range: (1e-6, 1e-3), logarithmic: true }],
         objective: Objective::Power,
         limits: Limits::default(),
+        acceleration: Some(0.15),
     };
     let line = Line { along: 0, at: 0.01 };
     let crossings = Crossings { scenario: scenario.clone(), plane: plane(), line, doubled: false };

@@ -179,6 +179,14 @@ fn objective(view: &View, session: &Session) -> Objective {
     }
 }
 
+/// The base's acceleration (g) that is held while anything else is varied.
+fn acceleration(view: &View) -> Option<f64> {
+    let p = &view.scenario.parameters;
+    // Without the last digits, which change while the frequency is moved at this acceleration.
+    let present = || round_significant(view.scenario.units().acceleration(p.beta, p.omega), 5);
+    view.design.holds_acceleration.then(present)
+}
+
 /// The map in view. What its sides vary must not make another question.
 pub(in crate::app) fn map(view: &View, session: &Session) -> FindQuestion {
     let variables: Vec<Variable> =
@@ -191,7 +199,12 @@ pub(in crate::app) fn map(view: &View, session: &Session) -> FindQuestion {
     }
     let objective = objective(view, session);
     let scenario = scenario.forgetting(&[Forgotten::Duration]);
-    FindQuestion { scenario, variables, objective, limits: bench::chosen_limits(view) }
+    let acceleration = acceleration(view);
+    // The amplitude follows then.
+    let usual = ParameterSet::default().get(Parameter::Beta);
+    let follows = acceleration.map(|_| Forgotten::Number(Parameter::Beta, usual));
+    let scenario = scenario.forgetting(follows.as_slice());
+    FindQuestion { scenario, variables, objective, limits: bench::chosen_limits(view), acceleration }
 }
 
 /// The search in view, from the device in view.
@@ -201,5 +214,5 @@ pub(in crate::app) fn find(view: &View, session: &Session) -> FindQuestion {
     let variables = sides.map(|side| variable(view, session, side)).collect();
     let objective = objective(view, session);
     let (scenario, limits) = (view.scenario.clone(), bench::chosen_limits(view));
-    FindQuestion { scenario, variables, objective, limits }
+    FindQuestion { scenario, variables, objective, limits, acceleration: acceleration(view) }
 }

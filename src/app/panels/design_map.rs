@@ -148,6 +148,9 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
             let value = (axes[i].value(moved[i]) / factors[i]).clamp(low, high);
             device = device.with(sides[i], round_significant(value, 5));
         }
+        if context.view.design.holds_acceleration && !sides.contains(&Dimension::BaseAmplitude) {
+            device = device.with_acceleration(present.acceleration());
+        }
         let scaling = context.view.scenario.scaling;
         adopt(context, device, scaling);
     }

@@ -8,8 +8,8 @@ use crate::app::{fonts, theme};
 
 /// Height of the stack and of the note below it, and room for the labels at its right, points.
 const STACK: f32 = 84.0;
-const NOTE: f32 = 18.0;
-const LABELS: f32 = 118.0;
+const NOTE: f32 = 32.0;
+const LABELS: f32 = 134.0;
 /// Widest stack, and least distance of two labels, points.
 const WIDEST: f32 = 300.0;
 const LINE: f32 = 15.0;

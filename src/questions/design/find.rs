@@ -10,7 +10,7 @@ use super::{DesignError, Plant};
 use crate::dynamics::Motion;
 use crate::dynamics::bifurcations::tongue::Window;
 use crate::model::limits::Standing;
-use crate::model::{Limits, ModelError};
+use crate::model::{Dimension, Limits, ModelError, Parameter};
 use crate::questions::motions::{Coordinate, at_place};
 use crate::scenario::{Scenario, counted};
 use crate::spacing::equally_spaced;
@@ -84,12 +84,33 @@ pub struct FindQuestion {
     pub objective: Objective,
     /// What must be kept; where no voltage is given it is the one that a candidate's own ceramic bears.
     pub limits: Limits,
+    /// The peak of the base's acceleration (g) with which every candidate is shaken; with the scenario's amplitude when
+    /// absent, or where the amplitude itself is varied.
+    pub acceleration: Option<f64>,
 }
 
 /// Largest number of variables.
 const MOST_VARIABLES: usize = 8;
 
 impl FindQuestion {
+    /// The scenario of a candidate, a value for each variable.
+    ///
+    /// # Errors
+    /// [`ModelError`] when it is no device.
+    pub fn candidate(&self, values: &[f64]) -> Result<Scenario, ModelError> {
+        let coordinates: Vec<_> = self.variables.iter().map(|variable| variable.coordinate).collect();
+        let mut scenario = at_place(&self.scenario, &coordinates, values)?;
+        let shaking =
+            [Coordinate::Parameter(Parameter::Beta), Coordinate::Dimension(Dimension::BaseAmplitude)];
+        let wanted = self.acceleration.filter(|_| !coordinates.iter().any(|one| shaking.contains(one)));
+        let p = scenario.parameters;
+        let present = scenario.units().acceleration(p.beta, p.omega);
+        if let Some(wanted) = wanted.filter(|_| present > 0.0) {
+            scenario.parameters.beta *= wanted / present;
+        }
+        Ok(scenario)
+    }
+
     /// Checks ranges and limits.
     ///
     /// # Errors
@@ -113,6 +134,9 @@ impl FindQuestion {
             ModelError::check("from", from, (1e-6, 1e9), " Hz")?;
             ModelError::check("to", to, (from, 1e9), " Hz")?;
             counted("count", count, BAND_COUNTS)?;
+        }
+        if let Some(acceleration) = self.acceleration {
+            ModelError::check("acceleration", acceleration, (0.0, 1e9), " g")?;
         }
         self.limits.validate()
     }
@@ -146,10 +170,7 @@ impl Evaluation {
 /// [`DesignError`] when the question itself cannot be asked; a candidate without a device, or whose motion cannot be
 /// followed, is an answer.
 pub fn evaluate(question: &FindQuestion, values: &[f64]) -> Result<Evaluation, DesignError> {
-    let coordinates: Vec<_> = question.variables.iter().map(|variable| variable.coordinate).collect();
-    let Ok(scenario) = at_place(&question.scenario, &coordinates, values) else {
-        return Ok(Evaluation::NOTHING);
-    };
+    let Ok(scenario) = question.candidate(values) else { return Ok(Evaluation::NOTHING) };
     let Ok(plant) = Plant::new(&scenario) else { return Ok(Evaluation::NOTHING) };
     match question.objective {
         Objective::Band { least, from, to, count } => band(question, &plant, least, (from, to), count),
@@ -172,6 +193,9 @@ pub fn evaluate(question: &FindQuestion, values: &[f64]) -> Result<Evaluation, D
 /// The motion reached at a frequency and how much it violates; `None` when there is none to be had.
 fn lasting_at(question: &FindQuestion, plant: &Plant, omega: f64) -> Option<(Lasting, f64)> {
     let mut scenario = plant.scenario.clone();
+    if question.acceleration.is_some() {
+        scenario.parameters.beta *= (scenario.parameters.omega / omega).powi(2);
+    }
     scenario.parameters.omega = omega;
     let (system, initial) = scenario.validate().ok()?;
     let found = lasting(plant, &system, &initial).ok()?;
@@ -215,4 +239,43 @@ fn threshold(plant: &Plant, resonance: Resonance) -> Result<Evaluation, DesignEr
     let Ok(tip) = lowest_threshold(&system, resonance, limit) else { return Ok(Evaluation::NOTHING) };
     // The excitation plays no role, nor then do the limits of a motion.
     Ok(Evaluation { value: tip.map(|tip| tip.beta), violation: 0.0, motion: None })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::questions::design::operating;
+
+    fn question(acceleration: Option<f64>) -> FindQuestion {
+        let range = (2.7, 3.3);
+        let coordinate = Coordinate::Dimension(Dimension::Frequency);
+        let variables = vec![Variable { coordinate, range, logarithmic: false }];
+        let (objective, limits) = (Objective::Power, Limits::default());
+        FindQuestion { scenario: Scenario::default(), variables, objective, limits, acceleration }
+    }
+
+    #[test]
+    fn candidates_are_shaken_with_the_acceleration_that_is_held() {
+        for frequency in [2.7, 3.0, 3.3] {
+            let held = question(Some(0.03)).candidate(&[frequency]).expect("a device").device().expect("one");
+            assert!((held.acceleration() / 0.03 - 1.0).abs() < 1e-12, "{}", held.acceleration());
+            let free = question(None).candidate(&[frequency]).expect("a device").device().expect("one");
+            let own = Scenario::default().device().expect("one").base_amplitude;
+            assert!((free.base_amplitude / own - 1.0).abs() < 1e-12);
+            // What is found is what the bench says of that very device.
+            let mut scenario = Scenario::default();
+            let device = scenario.device().expect("one");
+            let device = crate::model::Device { frequency, ..device }.with_acceleration(0.03);
+            scenario.set_device(device, scenario.scaling).expect("a device");
+            let said = operating(&scenario).expect("a device").reached.harvest.expect("it lasts");
+            let found = evaluate(&question(Some(0.03)), &[frequency]).expect("an answer").value.expect("one");
+            assert!((found / said.measures.power - 1.0).abs() < 1e-9, "{found} {}", said.measures.power);
+        }
+        // Where the amplitude itself is varied, nothing else decides it.
+        let coordinate = Coordinate::Dimension(Dimension::BaseAmplitude);
+        let variables = vec![Variable { coordinate, range: (1e-4, 1e-3), logarithmic: false }];
+        let varied = FindQuestion { variables, ..question(Some(0.03)) };
+        let device = varied.candidate(&[7e-4]).expect("a device").device().expect("one");
+        assert!((device.base_amplitude / 7e-4 - 1.0).abs() < 1e-12);
+    }
 }

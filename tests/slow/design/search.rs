@@ -24,7 +24,7 @@ fn question(objective: Objective, limits: Limits) -> FindQuestion {
     };
     let variables =
         vec![dimension(Dimension::Frequency, (2.5, 3.2)), dimension(Dimension::Resistance, (1e5, 1e9))];
-    FindQuestion { scenario, variables, objective, limits }
+    FindQuestion { scenario, variables, objective, limits, acceleration: None }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use egui::{Grid, RichText, Ui};
+use egui::{RichText, Ui};
 
 use crate::app::panels::device::published_name;
 use crate::app::text::{fill, tr};
@@ -36,23 +36,21 @@ pub(super) fn show(ui: &mut Ui) {
             ui.add_space(6.0);
             ui.add(egui::Label::new(RichText::new(published_name(device)).strong()).wrap());
             ui.add(egui::Label::new(quiet(device.source)).wrap());
-            egui::ScrollArea::horizontal().id_salt(device.name).show(ui, |ui| {
-                Grid::new(device.name).num_columns(5).spacing([14.0, 3.0]).show(ui, |ui| {
-                    for head in ["", tr("published"), tr("computed here"), tr("difference"), ""] {
-                        ui.label(quiet(head));
-                    }
-                    ui.end_row();
-                    for (printed, computed) in device.printed.iter().zip(computed) {
-                        ui.label(in_words(printed.what));
-                        ui.label(value(printed.what, printed.value));
-                        let computed = computed.unwrap_or(f64::NAN);
-                        ui.label(value(printed.what, computed));
-                        ui.label(difference(computed / printed.value - 1.0));
-                        ui.label(quiet(origin(printed.origin)));
-                        ui.end_row();
-                    }
-                });
-            });
+            for (printed, computed) in device.printed.iter().zip(computed) {
+                let computed = computed.unwrap_or(f64::NAN);
+                let numbers = fill(
+                    "{published} published, {computed} here: {difference}",
+                    &[
+                        ("published", &value(printed.what, printed.value)),
+                        ("computed", &value(printed.what, computed)),
+                        ("difference", &difference(computed / printed.value - 1.0)),
+                    ],
+                );
+                ui.add_space(3.0);
+                let what = format!("{}  ·  {}", in_words(printed.what), origin(printed.origin));
+                ui.add(egui::Label::new(quiet(&what)).wrap());
+                ui.add(egui::Label::new(numbers).wrap());
+            }
         }
         ui.add_space(4.0);
         let text = tr(
@@ -77,7 +75,7 @@ fn in_words(what: What) -> String {
 
 fn value(what: What, value: f64) -> String {
     match what {
-        What::ShortCircuit | What::OpenCircuit => format!("{} Hz", significant(value, 3)),
+        What::ShortCircuit | What::OpenCircuit => format!("{} Hz", significant(value, 4)),
         What::PowerPerG2(..) => format!("{} mW/g²", significant(1e3 * value, 5)),
         What::Omega(_) => significant(value, 5),
     }

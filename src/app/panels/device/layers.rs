@@ -209,11 +209,12 @@ fn given(ui: &mut Ui, laminate: &Laminate) {
     let stiffness = laminate.youngs_modulus * laminate.second_moment;
     let numbers = [
         ("EI", format!("{} N m²", significant(stiffness, 5))),
-        ("m_b", format!("{} g", significant(1e3 * laminate.beam_mass, 5))),
-        ("C_eq", with_unit(laminate.capacitance, "F")),
+        ("m", format!("{} g", significant(1e3 * laminate.beam_mass, 5))),
+        ("C", with_unit(laminate.capacitance, "F")),
         ("Θ", format!("{} µN m/V", significant(1e6 * laminate.coupling, 5))),
     ];
-    let numbers: Vec<String> = numbers.iter().map(|(name, value)| format!("{name} {value}")).collect();
+    let numbers: Vec<String> =
+        numbers.iter().map(|(name, value)| format!("{name} {value}").replace(' ', "\u{a0}")).collect();
     quiet(ui, &fill("Computed from the layers: {numbers}", &[("numbers", &numbers.join("  ·  "))]));
     ui.add_space(4.0);
 }

@@ -42,8 +42,8 @@ const STEEL_BEAM: Device = Device {
 /// What a published device is called.
 pub(in crate::app::panels) fn name(published: &Published) -> &'static str {
     match published.name {
-        name if name == UNIMORPH.name => tr("Unimorph, Erturk & Inman 2008"),
-        name if name == BIMORPH.name => tr("Bimorph T226-A4, Erturk & Inman 2009"),
+        name if name == UNIMORPH.name => tr("Unimorph of 2008"),
+        name if name == BIMORPH.name => tr("Bimorph T226-A4"),
         _ => tr("Table 1: the paper's device"),
     }
 }

@@ -222,3 +222,53 @@ fn a_narrow_field_shows_fewer_digits_instead_of_half_of_them() {
     });
     assert_eq!(widths, ["0.47091 MPa s", "0.4709 MPa s", "0.471 MPa s"]);
 }
+
+/// Pictures of a finger that comes down and goes along these places, one a picture.
+fn swipe(bench: &mut Bench, path: &[egui::Pos2]) {
+    use egui::{Event, PointerButton, TouchDeviceId, TouchId, TouchPhase};
+    let touch = |phase, pos| Event::Touch {
+        device_id: TouchDeviceId(0),
+        id: TouchId::from(1_u64),
+        phase,
+        pos,
+        force: None,
+    };
+    let button = |pos, pressed| Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    let (first, last) = (path[0], path[path.len() - 1]);
+    let mut pictures = vec![vec![button(first, true), touch(TouchPhase::Start, first)]];
+    pictures.extend(path[1..].iter().map(|at| vec![Event::PointerMoved(*at), touch(TouchPhase::Move, *at)]));
+    pictures.push(vec![button(last, false), Event::PointerGone, touch(TouchPhase::End, last)]);
+    bench.run(|harness, draw| {
+        for events in pictures {
+            harness.frame(events, |ui| {
+                crate::app::widgets::touch::begin_frame(ui.ctx());
+                draw(ui);
+            });
+        }
+    });
+}
+
+#[test]
+fn a_finger_slides_sideways_scrolls_up_and_down_and_sets_by_a_tap() {
+    let mut bench = Bench::new(11.0);
+    let track = bench.harness.find(Role::Slider, "Frequency").bounds;
+    let at = |across: f32, down: f32| track.left_center() + egui::vec2(across * track.width(), down);
+    for step in [3.0, 12.0, 40.0] {
+        let path: Vec<_> = (0..8).map(|i| at(0.7, -step * i as f32)).collect();
+        swipe(&mut bench, &path);
+        assert_eq!(bench.value, 11.0, "{step}");
+    }
+    // Once it scrolls it does so wherever it goes.
+    swipe(&mut bench, &[at(0.7, 0.0), at(0.7, 20.0), at(0.9, 24.0), at(0.2, 24.0)]);
+    assert_eq!(bench.value, 11.0);
+    swipe(&mut bench, &[at(0.7, 0.0), at(0.71, 0.0)]);
+    assert!((bench.value - 29.0).abs() < 1.5, "{}", bench.value);
+    let tapped = bench.value;
+    swipe(&mut bench, &[at(0.3, 0.0), at(0.35, 2.0), at(0.4, 60.0)]);
+    assert!(bench.value < tapped - 5.0, "{}", bench.value);
+}
