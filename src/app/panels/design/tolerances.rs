@@ -12,6 +12,9 @@ use crate::questions::design::tolerance::Lean;
 use crate::questions::tolerances::ToleranceStudy;
 use crate::scheduler::Study as _;
 
+/// Width of the names in the table, beyond which they break.
+const NAME_WIDTH: f32 = 138.0;
+
 /// Draws the cards beside the curve.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
     Card::new(tr("Scatter")).hugging().show(ui, |ui| scatter(context, ui));
@@ -73,17 +76,18 @@ fn table(context: &Context<'_>, ui: &mut Ui) {
     rows.sort_by(|a, b| size(&b.1).total_cmp(&size(&a.1)));
     let most =
         [study.most(|lean| lean.power), study.most(|lean| lean.frequency), study.most(|lean| lean.threshold)];
-    Grid::new("sensitivities").num_columns(4).spacing([12.0, 3.0]).striped(true).show(ui, |ui| {
+    let table = Grid::new("sensitivities").num_columns(4).spacing([8.0, 3.0]).max_col_width(NAME_WIDTH);
+    table.striped(true).show(ui, |ui| {
         for text in ["", tr("power"), tr("resonance"), tr("threshold")] {
             ui.label(RichText::new(text).small().color(tokens.text_weak));
         }
         ui.end_row();
         for (dimension, lean) in rows {
             let fact = dimension.fact();
-            ui.label(RichText::new(tr(fact.title)).small());
+            ui.add(egui::Label::new(RichText::new(tr(fact.title)).small()).wrap());
             for (value, most) in [lean.power, lean.frequency, lean.threshold].into_iter().zip(&most) {
                 let text = value.map_or("–".to_owned(), |value| format!("{value:+.2}"));
-                let text = RichText::new(text).monospace();
+                let text = RichText::new(text.replace('-', "−")).small();
                 // The largest of each column.
                 let strongest = most.is_some_and(|(strongest, _)| strongest == dimension);
                 ui.label(if strongest { text.strong().color(tokens.accent) } else { text });
