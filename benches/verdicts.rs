@@ -43,6 +43,7 @@ fn anywhere(random: &mut fastrand::Rng) -> (ParameterSet, ModelChoice) {
         c: between(random, 1e-7, 1e-5),
         kappa: between(random, 1e-8, 1e-4),
         theta: between(random, 1e-5, 1e-3),
+        ..Default::default()
     };
     let force = [ForceLaw::Quadratic, ForceLaw::Exact][random.usize(..2)];
     (set, ModelChoice { force, ..Default::default() })

@@ -2,9 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::damping::Damping;
+use crate::model::layers::Laminate;
 use crate::model::{
-    Device, ElectricalScaling, MAX_MODES, ModelError, Parameter, ParameterSet, Parameters, ReducedSystem,
-    Units, state_dimension,
+    Device, ElectricalScaling, Layers, MAX_MODES, ModelError, Parameter, ParameterSet, Parameters,
+    ReducedSystem, Units, state_dimension,
 };
 
 pub use crate::model::ModelChoice;
@@ -21,7 +23,7 @@ pub const END_TIME: (f64, f64) = (1.0, 5000.0);
 pub struct Scenario {
     /// Version of this format.
     pub version: u32,
-    /// The ten dimensionless numbers.
+    /// The dimensionless numbers.
     pub parameters: ParameterSet,
     /// Modes and force law.
     pub model: ModelChoice,
@@ -29,7 +31,7 @@ pub struct Scenario {
     pub initial: Option<Vec<f64>>,
     /// Duration of the run (dimensionless).
     pub t_end: f64,
-    /// What the ten numbers leave open of the device in SI units (see [`Device::from_parameters`]); its other entries
+    /// What the numbers leave open of the device in SI units (see [`Device::from_parameters`]); its other entries
     /// play no role. The paper's device when absent. Nothing dimensionless depends on it. Since version 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub device: Option<Device>,
@@ -45,7 +47,7 @@ pub enum Forgotten {
     Start,
     /// How long it is shown.
     Duration,
-    /// One of the ten numbers, which the question varies; this value stands for all.
+    /// One of the numbers, which the question varies; this value stands for all.
     Number(Parameter, f64),
     /// Damping and dielectric loss, which come with a ceramic.
     Ceramic,
@@ -87,7 +89,7 @@ pub fn counted(
 }
 
 impl Scenario {
-    /// The device in SI units: the ten numbers are what is computed from, so that it always agrees with them.
+    /// The device in SI units: the numbers are what is computed from, so that it always agrees with them.
     ///
     /// # Errors
     /// As [`Device::from_parameters`].
@@ -95,17 +97,42 @@ impl Scenario {
         Device::from_parameters(&self.base(), &self.parameters, self.scaling)
     }
 
-    /// Makes `device` the scenario's: its dimensionless numbers under `scaling` become the ten numbers.
+    /// What layers decide of the device, where the scenario is about one in SI units.
+    ///
+    /// # Errors
+    /// As [`Self::device`].
+    pub fn laminate(&self) -> Result<Option<Laminate>, ModelError> {
+        self.device.map(|_| self.device().map(|device| device.laminate())).transpose()
+    }
+
+    /// Gives the first modes these damping ratios: with one the material takes it all, two set the air's part too.
+    ///
+    /// # Errors
+    /// As [`ReducedSystem::damping_of`]; nothing is changed then.
+    pub fn damp(&mut self, ratios: &[f64]) -> Result<(), ModelError> {
+        let modes = self.model.modes.max(2);
+        let system = ModelChoice { modes, ..self.model }.system(self.parameters)?;
+        let Damping { alpha, air } = system.damping_of(ratios)?;
+        self.parameters = *Parameters::new(ParameterSet { alpha, air, ..self.parameters })?;
+        Ok(())
+    }
+
+    /// Makes `device` the scenario's: its dimensionless numbers under `scaling` become those of the scenario. Its layers, if it
+    /// has any, decide what is theirs, the scaling too.
     ///
     /// # Errors
     /// [`ModelError`] naming what is out of range, in SI units or dimensionless; nothing is changed then.
     pub fn set_device(&mut self, device: Device, scaling: ElectricalScaling) -> Result<(), ModelError> {
+        let (device, scaling) = match device.layers {
+            Some(layers) => (device.with_layers(layers), Layers::SCALING),
+            None => (device, scaling),
+        };
         self.parameters = *Parameters::new(device.renumbered(self.parameters, scaling)?)?;
         (self.device, self.scaling, self.version) = (Some(device), scaling, VERSION);
         Ok(())
     }
 
-    /// Changes what the ten numbers leave open, and the scaling; the numbers are kept, and the rest of the device follows
+    /// Changes what the numbers leave open, and the scaling; the numbers are kept, and the rest of the device follows
     /// them.
     ///
     /// # Errors
@@ -118,7 +145,7 @@ impl Scenario {
     }
 
     /// The same without what plays no role in an answer: of two scenarios that compute the same both are then equal, and
-    /// ask the same question. The device keeps only what the ten numbers leave open.
+    /// ask the same question. The device keeps only what the numbers leave open.
     #[must_use]
     pub fn forgetting(&self, forgotten: &[Forgotten]) -> Self {
         let usual = Self::default();
@@ -151,7 +178,7 @@ impl Scenario {
         Units::of(&self.base(), self.scaling)
     }
 
-    /// The device that says what the ten numbers leave open.
+    /// The device that says what the numbers leave open.
     pub fn base(&self) -> Device {
         self.device.unwrap_or_default()
     }

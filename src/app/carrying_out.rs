@@ -37,6 +37,11 @@ impl App {
             }
             Command::Measure(Some(reading)) => self.bench.measured.read(reading),
             Command::Measure(None) => self.bench.measured = bench::measured::Measured::default(),
+            Command::Fit => {
+                let asked =
+                    self.bench.measured.file.as_ref().map(|file| bench::measured::fit(file, &self.view));
+                self.bench.refusal = asked.and_then(|asked| self.crew.borrow_mut().studies.fit(asked).err());
+            }
             Command::MeasureRun => {
                 if let Some(shown) = &self.session.shown {
                     self.bench.measured.open("run.csv", bench::measured::record(shown).into_bytes());

@@ -42,6 +42,8 @@ pub(super) enum Command {
     Find(bool),
     /// Read the file's columns so, or close it.
     Measure(Option<Reading>),
+    /// Begins to fit the device in view to the measured data.
+    Fit,
     /// Take the end of the run in view as if it were a file of measured data.
     MeasureRun,
     /// Load a figure of the paper.

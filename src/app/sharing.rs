@@ -12,10 +12,10 @@ use super::link;
 use super::view::design::Page;
 use super::view::{Tab, View};
 use crate::app::text::fill;
-use crate::questions::design::measured::{self, MeasuredError};
+use crate::questions::design::measured;
 use crate::questions::input::{self, NoText};
 use crate::scenario::Scenario;
-use crate::sentence::{Say as _, Sentence, said};
+use crate::sentence::{Sentence, said};
 
 /// Name of saved files.
 const FILE_NAME: &str = "harvester-scenario.json";
@@ -47,7 +47,7 @@ fn is_scenario(name: &str, contents: &[u8]) -> bool {
 /// The text of a file that may hold a scenario.
 fn text_of(bytes: Vec<u8>) -> Result<String, Sentence> {
     let text = input::text(&bytes).map_err(|problem| match problem {
-        NoText::Utf16 => MeasuredError::Utf16.say(),
+        NoText::Utf16 => said("it is UTF-16 text: save it as UTF-8", &[]),
         NoText::Other => said("it is not a text", &[]),
     })?;
     if !text.trim_start().starts_with('{') {
@@ -333,12 +333,12 @@ mod tests {
             ("one.csv", vec![b'1'; FIRST], 50_000_000, "line 1 is longer"),
             ("run.csv", row(100), 500_000_000, "larger than 64 MB"),
             ("view.json", b"{".to_vec(), 50_000_000, "too large for a scenario"),
-            ("old.csv", b"\xff\xfe1\0,\0".to_vec(), 6, "UTF-16"),
         ] {
             let reason = look(name, &first, size).expect_err("unfit");
             assert!(reason.to_string().contains(part), "{reason}");
         }
         assert_eq!(look("good.csv", &row(100), 60_000_000), Ok(()));
+        assert_eq!(look("old.csv", b"\xff\xfe1\0,\0", 6), Ok(()));
         app.open_file("sound.wav", Ok(b"RIFF\0\0".to_vec()));
         let notice = app.notice.take().expect("a notice");
         assert!(notice.starts_with("sound.wav could not be opened: it is no text"), "{notice}");

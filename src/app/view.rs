@@ -5,6 +5,7 @@ mod front;
 pub mod live;
 mod panel;
 mod salvage;
+pub mod shake;
 mod sweep;
 
 use serde::{Deserialize, Serialize};
@@ -20,9 +21,10 @@ pub use self::sweep::{Output, SweepView};
 use super::figures;
 use super::lessons::{LessonId, STEPS};
 use crate::app::text::{Language, fill};
-use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, ModelError, Parameter};
+use crate::model::{Dimension, ElectricalScaling, ForceLaw, ModelError, Parameter};
 use crate::questions::chart::Quantity;
 use crate::questions::curves;
+use crate::questions::design::published::BIMORPH;
 use crate::questions::input::{self, FieldError};
 use crate::scenario::{Scenario, counted};
 use crate::sentence::{Say, Sentence, said};
@@ -166,7 +168,7 @@ impl View {
     /// One with all that there need not be, so that every place of its JSON can be seen; what it says is of no interest.
     pub(super) fn complete() -> Self {
         let mut view = Self::default();
-        view.scenario.device = Some(Device::default());
+        view.scenario.device = Some(BIMORPH.device());
         view.scenario.scaling = ElectricalScaling::Consistent;
         view.scenario.model.residual_moment = true;
         view.design.search.third = Some(Side::of(Dimension::TipMass));

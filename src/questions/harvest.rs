@@ -16,12 +16,14 @@ use super::design::{
 };
 use super::error::{RequestError, failed};
 use super::question::Question;
+use super::rectifier::{Rectifier, RectifierAnswer};
 use super::response::{ResponseCurve, ResponsePoint, check_range, curve};
 use super::subject::ACCELERATION_UNIT;
 use super::sweep::{COUNTS, Direction, Sweep, SweepStudy};
 use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::attractors::sweep::{Dwell, SweepPoint};
 use crate::dynamics::{IntegrationError, Motion, RunError};
+use crate::model::layers::Laminate;
 use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
@@ -46,6 +48,8 @@ pub struct Harvest {
     pub least: Option<f64>,
     /// What must be kept in the bands within limits; the voltage by the ceramic where none is given.
     pub limits: Limits,
+    /// A rectifier and a store in place of the load; none when absent.
+    pub rectifier: Option<Rectifier>,
     /// How long a frequency is held in a sweep; requests leave it as it is.
     #[serde(skip)]
     pub dwell: Dwell,
@@ -72,6 +76,12 @@ pub struct HarvestAnswer {
     /// At its own excitation.
     #[serde(flatten)]
     pub operating: Operating,
+    /// What goes into a store behind a rectifier, at its own excitation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rectified: Option<RectifierAnswer>,
+    /// What the layers of the device decide, or else was given for it; absent where the request is about numbers.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub laminate: Option<Laminate>,
     /// Over frequency, at its own amplitude of the base or of its acceleration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curves: Option<Curves>,
@@ -137,8 +147,10 @@ impl Question for Harvest {
         }
         self.limits.validate()?;
         let operating = operating(&scenario)?;
+        let rectified = self.rectifier.map(|rectifier| rectifier.answer(&scenario, budget)).transpose()?;
+        let laminate = scenario.laminate()?;
         let curves = self.frequency.map(|frequency| self.curves(scenario, frequency, budget)).transpose()?;
-        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, curves })
+        Ok(HarvestAnswer { acceleration_unit: ACCELERATION_UNIT, operating, rectified, laminate, curves })
     }
 }
 

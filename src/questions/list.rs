@@ -5,6 +5,7 @@ use super::basin::BasinStudy;
 use super::continuation::Response;
 use super::curves::{Crossings, CurvesStudy, Trace};
 use super::find::{Evaluate, FindStudy};
+use super::fit::{FitStudy, Voltages};
 use super::harvest::{Between, Branches, Deliver, HarvestStudy, Starts};
 use super::inspection::Inspect;
 use super::load::{BestAt, Forced, LoadStudy, Reached};
@@ -13,8 +14,11 @@ use super::materials::Fitted;
 use super::motion_chart::MotionChart;
 use super::motions::Motions;
 use super::multiplier_chart::{Columns, MultiplierChart};
+use super::rectifier::{BestVoltage, OpenCircuit, Rectified, RectifierStudy};
 use super::request::Task;
+use super::shake::{AtLevel, ShakenRun};
 use super::sweep::{Stretch, SweepStudy};
+use super::tolerances::{Leaning, Meant, ToleranceStudy};
 use super::tongues::{Border, TongueStudy};
 use super::trust::Entry;
 use crate::scheduler::lane::Traffic;
@@ -40,6 +44,9 @@ pub const TASKS: &[Task] = &[
     Task::of::<super::trust::Trust>(),
     Task::of::<super::find::Find>(),
     Task::of::<super::map::Map>(),
+    Task::of::<super::shake::Shake>(),
+    Task::of::<super::tolerances::Tolerances>(),
+    Task::of::<super::fit::Fit>(),
 ];
 
 /// What workers can do.
@@ -60,9 +67,17 @@ pub const HANDS: &[Hand] = &[
     Hand::of::<Forced>(),
     Hand::of::<Reached>(),
     Hand::of::<BestAt>(),
+    Hand::of::<OpenCircuit>(),
+    Hand::of::<Rectified>(),
+    Hand::of::<BestVoltage>(),
     Hand::of::<Fitted>(),
     Hand::of::<Entry>(),
     Hand::of::<Evaluate>(),
+    Hand::of::<ShakenRun>(),
+    Hand::of::<AtLevel>(),
+    Hand::of::<Meant>(),
+    Hand::of::<Voltages>(),
+    Hand::of::<Leaning>(),
 ];
 
 fn lane<S: Study>(name: &'static str, first: Option<S>) -> (&'static str, Box<dyn Traffic>) {
@@ -89,11 +104,16 @@ pub fn lanes() -> Lanes {
         lane::<BasinStudy>("basin", None),
         lane::<HarvestStudy>("harvest", None),
         lane::<LoadStudy>("load", None),
+        lane::<RectifierStudy>("rectifier", None),
         lane::<Table<BestAt>>("best frequencies", None),
         lane::<Table<Fitted>>("materials", None),
         lane::<Table<Entry>>("trust", None),
         lane::<FindStudy>("find", None),
         lane::<DesignMap>("map", None),
+        lane::<Table<ShakenRun>>("shake", None),
+        lane::<Table<AtLevel>>("levels", None),
+        lane::<ToleranceStudy>("tolerances", None),
+        lane::<FitStudy>("fit", None),
     ];
     Lanes::new(lanes, 4)
 }

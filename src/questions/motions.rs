@@ -110,8 +110,7 @@ pub fn at_place(
         match *coordinate {
             Coordinate::Parameter(parameter) => *scenario.parameters.get_mut(parameter) = *value,
             Coordinate::Dimension(dimension) => {
-                let mut device = scenario.device()?;
-                *device.get_mut(dimension) = *value;
+                let device = scenario.device()?.with(dimension, *value);
                 scenario.set_device(device, scenario.scaling)?;
             }
             Coordinate::Start(i) => {

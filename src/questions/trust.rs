@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::design::Plant;
 use super::design::harvest::lasting;
+use super::design::published::{Printed, Published};
 use super::design::trust::{
     LAWS, LawError, MomentError, Quantity, TrustEntry, law_error, moment_errors, places, trust_entry,
 };
@@ -40,6 +41,33 @@ pub struct TrustAnswer {
     /// The laws' errors where the motion reached comes closest to the magnet and where it is farthest; empty when it
     /// ended.
     pub law_errors: Vec<LawErrors>,
+    /// Published devices, which have nothing to do with the one asked about: what was printed of them and what is computed.
+    pub published: Vec<PublishedRow>,
+}
+
+/// A printed number of a published device.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PublishedRow {
+    /// What the device is called.
+    pub device: &'static str,
+    /// Where it was published.
+    pub source: &'static str,
+    /// What was printed.
+    #[serde(flatten)]
+    pub printed: Printed,
+    /// The same computed here; null where it has no answer.
+    pub computed: Option<f64>,
+}
+
+/// The printed numbers of all published devices.
+fn published() -> Vec<PublishedRow> {
+    let rows = |device: Published| {
+        device.printed.iter().map(move |printed| {
+            let computed = device.computed(printed.what).ok();
+            PublishedRow { device: device.name, source: device.source, printed: *printed, computed }
+        })
+    };
+    Published::ALL.into_iter().flat_map(rows).collect()
 }
 
 /// An entry, or why there is none.
@@ -108,7 +136,7 @@ impl Question for Trust {
         let moment = (1..=MAX_MODES).map(|modes| moment_errors(&scenario, modes));
         let moment_errors = moment.collect::<Result<_, _>>().unwrap_or_default();
         let law_errors = reached.harvest.map_or_else(Vec::new, |found| errors(found.demand.tip).to_vec());
-        Ok(TrustAnswer { entries, moment_errors, law_errors })
+        Ok(TrustAnswer { entries, moment_errors, law_errors, published: published() })
     }
 }
 

@@ -250,7 +250,7 @@ fn every_example_of_the_readme_has_an_answer() {
     let requests: Vec<&str> = readme.lines().filter_map(after).map(|(request, _)| request).collect();
     for task in [
         "modes", "boundary", "simulate", "orbit", "chart", "sweep", "continue", "curves", "verdict", "basin",
-        "harvest", "find",
+        "harvest", "find", "shake",
     ] {
         let asks = |request: &&&str| request.contains(&format!("\"task\":\"{task}\""));
         assert!(requests.iter().any(|request| asks(&request)), "the README has no example of {task}");

@@ -10,6 +10,7 @@ mod continuous_beam;
 mod equations_document;
 mod export;
 mod finite_element;
+mod fit;
 mod hill;
 mod integration;
 mod integrators;
@@ -19,11 +20,14 @@ mod measured;
 mod messages;
 mod own_device;
 mod properties;
+mod published_devices;
+mod rectifier;
 mod reference_values;
 mod spectrum;
 mod stability_boundaries;
 #[cfg(feature = "app")]
 mod texts;
+mod tolerances;
 
 /// What a test gives back that fails by `?`, too.
 type Fallible<T> = Result<T, Box<dyn std::error::Error>>;

@@ -6,8 +6,9 @@ use harvester_lab::dynamics::attractors::sweep::Dwell;
 use harvester_lab::dynamics::bifurcations::curves::Line;
 use harvester_lab::dynamics::bifurcations::tongue::Window;
 use harvester_lab::dynamics::{Axis, Plane};
+use harvester_lab::model::base_motion::BaseMotion;
 use harvester_lab::model::materials::Ceramic;
-use harvester_lab::model::{Along, ForceLaw, Limits, Parameter, ParameterSet, Shaking};
+use harvester_lab::model::{Along, Dimension, ForceLaw, Limits, Parameter, ParameterSet, Shaking};
 use harvester_lab::questions::answers::Solve;
 use harvester_lab::questions::continuation::{Continue, Response};
 use harvester_lab::questions::curves::{Crossings, Trace};
@@ -15,6 +16,7 @@ use harvester_lab::questions::design::change::Way;
 use harvester_lab::questions::design::find::{FindQuestion, Objective, Variable};
 use harvester_lab::questions::design::trust::Quantity;
 use harvester_lab::questions::find::Evaluate;
+use harvester_lab::questions::fit::Voltages;
 use harvester_lab::questions::harvest::{Between, Branches, Deliver, Starts};
 use harvester_lab::questions::inspection::Inspect;
 use harvester_lab::questions::list::{self, HANDS, TASKS};
@@ -22,7 +24,10 @@ use harvester_lab::questions::load::{BestAt, Forced, Reached};
 use harvester_lab::questions::materials::Fitted;
 use harvester_lab::questions::motions::{Coordinate, MotionPlane, Motions};
 use harvester_lab::questions::multiplier_chart::Columns;
+use harvester_lab::questions::rectifier::{BestVoltage, OpenCircuit, Rectified};
+use harvester_lab::questions::shake::{AtLevel, ShakenRun};
 use harvester_lab::questions::sweep::Stretch;
+use harvester_lab::questions::tolerances::{Leaning, Meant};
 use harvester_lab::questions::tongues::Border;
 use harvester_lab::questions::trust::Entry;
 use harvester_lab::scenario::Scenario;
@@ -75,6 +80,8 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
     let line = Line { along: 0, at: 0.01 };
     let crossings = Crossings { scenario: scenario.clone(), plane: plane(), line, doubled: false };
     let starts = crossings.carry_out().expect("starts");
+    let noise: BaseMotion =
+        serde_json::from_str(r#"{"kind":"noise","from":1,"to":5,"rms":0.01,"duration":20}"#).expect("noise");
     let mut names = vec![
         sent(&Solve { request: "{\"task\":\"modes\"}".to_owned() }),
         sent(&Deliver { scenario: scenario.clone() }),
@@ -141,7 +148,30 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
             resonance: Resonance::First,
             window,
         }),
+        sent(&OpenCircuit { scenario: scenario.clone() }),
+        sent(&Rectified { scenario: scenario.clone(), voltage: 2.0, drop: 0.3 }),
+        sent(&BestVoltage { scenario: scenario.clone(), between: (1.0, 1.5), drop: 0.0 }),
         sent(&Entry { scenario, modes: 2, law: ForceLaw::Exact, quantity: Quantity::Power }),
+        sent(&Meant { question: question.clone(), resonance: Resonance::First }),
+        sent(&Leaning {
+            scenario: question.scenario.clone(),
+            dimension: Dimension::BeamLength,
+            resonance: Resonance::First,
+        }),
+        sent(&Voltages {
+            scenario: question.scenario.clone(),
+            shaking,
+            dimensions: vec![(Dimension::TipMass, 6e-4)],
+            frequencies: vec![2.8, 2.9],
+        }),
+        sent(&ShakenRun {
+            scenario: question.scenario.clone(),
+            excitation: noise.clone(),
+            realisation: 1,
+            magnets: false,
+            points: 50,
+        }),
+        sent(&AtLevel { scenario: question.scenario.clone(), excitation: noise, realisations: 1 }),
         sent(&Evaluate { question, values: vec![1e-5] }),
     ];
     let mut known: Vec<&str> = HANDS.iter().map(|hand| hand.name).collect();

@@ -262,6 +262,35 @@ fn a_system_the_theories_do_not_cover_is_an_error() -> TestResult {
     Ok(())
 }
 
+#[test]
+fn air_that_takes_what_the_material_took_leaves_the_published_boundary_where_it_was() -> TestResult {
+    for (resonance, mode) in [(Resonance::First, 0), (Resonance::Second, 1)] {
+        let material = damped(1e-3, 2)?;
+        let shape = &material.modes[mode];
+        // Of the one mode of a subharmonic: alpha m_k = a_m eta_2k.
+        let air = 1e-3 * (shape.omega.powi(2) - material.c1 / shape.eta2);
+        let breeze = system(ParameterSet { alpha: 0.0, air, ..Default::default() }, 2)?;
+        let (a, b) = (Published::new(&material)?, Published::new(&breeze)?);
+        for detuning in [-0.2, 0.0, 0.3] {
+            let omega = a.frequency(resonance) + detuning;
+            for (x, y) in [
+                (a.boundary(resonance, omega), b.boundary(resonance, omega)),
+                (a.growth_rate(resonance, 0.01, omega), b.growth_rate(resonance, 0.01, omega)),
+            ] {
+                let (x, y) = (x.ok_or("none")?, y.ok_or("none")?);
+                assert!((x / y - 1.0).abs() < 1e-10, "{resonance:?} {detuning}: {x} {y}");
+            }
+        }
+    }
+    // Both together: growth ends at the boundary of the sum, too.
+    let both = Published::new(&system(ParameterSet { alpha: 5e-4, air: 0.03, ..Default::default() }, 2)?)?;
+    let omega = both.frequency(Resonance::Sum) + 0.1;
+    let beta = both.boundary(Resonance::Sum, omega).ok_or("none")?;
+    let growth = both.growth_rate(Resonance::Sum, beta, omega).ok_or("none")?;
+    assert!(growth.abs() < 1e-12, "{growth}");
+    Ok(())
+}
+
 fn any_resonance() -> impl Strategy<Value = Resonance> {
     proptest::sample::select(&Resonance::ALL[..])
 }

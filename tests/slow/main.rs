@@ -21,6 +21,7 @@ mod motions;
 mod opening;
 mod orbits;
 mod requests;
+mod shake;
 mod tasks;
 mod tips;
 mod verdict;

@@ -151,6 +151,7 @@ fn a_slow_transient_ends_in_the_linear_response_and_hangs_on_no_rounding() -> Te
         c: 9.297360944547462e-6,
         kappa: 9.888449382616378e-8,
         theta: 2.456704586417608e-5,
+        ..Default::default()
     };
     let system = ReducedSystem::new(Parameters::new(set)?, 2, ForceLaw::Exact)?;
     let verdict = verdict_on(&system, &[0.0; 5], 600.0)?;
@@ -195,6 +196,7 @@ fn chaos_of_forty_thousand_periods_is_not_named_where_a_torus_attracts() -> Test
         c: 2.3230084774211234e-6,
         kappa: 4.193403077628977e-8,
         theta: 1.344031667651489e-5,
+        ..Default::default()
     };
     let system = ReducedSystem::new(Parameters::new(set)?, 2, ForceLaw::Exact)?;
     let verdict = verdict_on(&system, &[0.0; 5], 600.0)?;

@@ -77,9 +77,12 @@ impl Device {
         (kappa > 0.0).then_some(resistance)
     }
 
-    /// Sag of the tip under gravity, (m_b/8 + m_t/3) g L^3/(E I) (m).
+    /// Sag of the beam's end under gravity, (m_b/8 + m_t/3 + m_t e/(2 L)) g L^3/(E I) (m).
     pub fn sag(&self) -> f64 {
-        (self.beam_mass / 8.0 + self.tip_mass / 3.0) * self.gravity * self.beam_length.powi(3)
+        let lever = self.tip_offset / (2.0 * self.beam_length);
+        (self.beam_mass / 8.0 + self.tip_mass / 3.0 + self.tip_mass * lever)
+            * self.gravity
+            * self.beam_length.powi(3)
             / self.bending_stiffness()
     }
 
@@ -117,6 +120,9 @@ impl Device {
         set.d = (self.magnet_distance - self.sag()) / length;
         set.h = self.magnet_length / length;
         set.eta = self.tip_mass / self.beam_mass;
+        set.j = self.tip_inertia / (self.beam_mass * length * length);
+        set.e = self.tip_offset / length;
+        set.air = self.air_damping * time;
         set.c = electrical * self.capacitance;
         set.kappa = electrical * time / self.resistance;
         set.theta = electrical * self.coupling;
@@ -128,6 +134,8 @@ impl Device {
     /// # Errors
     /// [`ModelError::OutOfRange`] or [`ModelError::NotFinite`] for the first that fails.
     pub fn check(&self) -> Result<(), ModelError> {
+        // They decide dimensions, whose faults would be theirs.
+        self.layers.map_or(Ok(()), |layers| layers.check())?;
         for dimension in Dimension::ALL {
             dimension.check(self.get(dimension))?;
         }

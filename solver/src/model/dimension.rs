@@ -1,6 +1,7 @@
 //! A harvester in SI units: its dimensions, a row each, with what a user edits and the coordinates of SI charts need.
 
 use super::fact::{Fact, Part, Scale, numbers};
+use super::layers::Layers;
 use super::materials::Ceramic;
 use super::{ModelError, Parameter};
 
@@ -76,6 +77,21 @@ numbers! {
         symbol: "Λ", name: "Viscosity", title: "viscosity", part: Part::Beam,
         range: NOT_NEGATIVE, usual: (0.0, 1e8), scale: Scale::LogarithmicFrom(1e4), shown: ("MPa s", 1e-6),
     }
+    TipInertia tip_inertia ["kg m^2"] = 0.0,
+    "Rotary inertia of the mass at the tip about its own centre." {
+        symbol: "J", name: "Tip inertia", title: "rotary inertia of the tip", part: Part::Beam,
+        range: NOT_NEGATIVE, usual: (0.0, 1e-3), scale: Scale::LogarithmicFrom(1e-9), shown: ("g cm²", 1e7),
+    }
+    TipOffset tip_offset ["m"] = 0.0,
+    "Distance of its centre from the end of the beam, outwards." {
+        symbol: "e", name: "Tip offset", title: "offset of the tip's centre", part: Part::Beam,
+        range: (-1e3, 1e3), usual: (-0.02, 0.05), shown: ("mm", 1e3),
+    }
+    AirDamping air_damping ["1/s"] = 0.0,
+    "Damping by the air: its force on a mass over the mass's momentum." {
+        symbol: "a_m", name: "Air damping", title: "damping by the air", part: Part::Beam,
+        range: NOT_NEGATIVE, usual: (0.0, 100.0), scale: Scale::LogarithmicFrom(1e-2), shown: ("1/s", 1.0),
+    }
     Gravity gravity ["m/s^2"]
     // As printed: standard gravity, rounded.
     = 9.8067,
@@ -127,6 +143,9 @@ numbers! {
     }
     + /// The ceramic, where one is chosen; the paper names none for its device.
       ceramic: Option<Ceramic> = None;
+    + /// The layers of the beam, where it is described by them: they decide [`Layers::DECIDED`].
+      #[serde(skip_serializing_if = "Option::is_none")]
+      layers: Option<Layers> = None;
 }
 
 impl Default for Device {
@@ -149,7 +168,7 @@ impl Dimension {
         ModelError::check(field, value, range, suffix)
     }
 
-    /// The one of the ten numbers that decides this dimension of a device, the others given (Eq. 8); `None` where they
+    /// The one of the dimensionless numbers that decides this dimension of a device, the others given (Eq. 8); `None` where they
     /// leave it open (see [`Device::from_parameters`]).
     pub const fn decided_by(self) -> Option<Parameter> {
         match self {
@@ -160,6 +179,9 @@ impl Dimension {
             Self::MagnetDistance => Some(Parameter::D),
             Self::MagnetLength => Some(Parameter::H),
             Self::TipMass => Some(Parameter::Eta),
+            Self::TipInertia => Some(Parameter::J),
+            Self::TipOffset => Some(Parameter::E),
+            Self::AirDamping => Some(Parameter::Air),
             Self::Capacitance => Some(Parameter::C),
             Self::Resistance => Some(Parameter::Kappa),
             Self::Coupling => Some(Parameter::Theta),

@@ -7,7 +7,7 @@ use super::ReducedSystem;
 pub struct Powers {
     /// Power the shaken base puts in.
     pub input: f64,
-    /// Power lost in the Kelvin-Voigt material.
+    /// Power lost in the Kelvin-Voigt material and to the air.
     pub viscous: f64,
     /// Power delivered to the load, kappa v^2.
     pub electrical: f64,
@@ -38,14 +38,15 @@ pub fn powers(system: &ReducedSystem, state: &[f64], sin_phase: f64) -> Powers {
     let n = system.modes.len();
     let p = &system.parameters;
     let tip_velocity = system.tip_velocity(state);
-    let (mut participation, mut viscous) = (0.0, -system.c1 * tip_velocity * tip_velocity);
+    let (mut participation, mut viscous, mut air) = (0.0, -system.c1 * tip_velocity * tip_velocity, 0.0);
     for (mode, velocity) in system.modes.iter().zip(&state[n..2 * n]) {
         participation += mode.eta1 * velocity;
         viscous += mode.eta2 * (mode.omega * velocity).powi(2);
+        air += mode.eta2 * velocity * velocity;
     }
     Powers {
         input: p.omega * p.omega * p.beta * sin_phase * participation,
-        viscous: p.alpha * viscous,
+        viscous: p.alpha * viscous + p.air * air,
         electrical: p.kappa * state[2 * n].powi(2),
     }
 }

@@ -72,6 +72,17 @@ pub enum ModelError {
         /// Linear magnet stiffness c_1 (dimensionless).
         c1: f64,
     },
+    /// A damping ratio of the second mode that no material and no air give.
+    DampingRatio {
+        /// The ratio given for mode 2.
+        ratio: f64,
+        /// That of mode 1.
+        first: f64,
+        /// What mode 2 has where the air takes all.
+        minimum: f64,
+        /// What it has where the material takes all.
+        maximum: f64,
+    },
     /// The sag under gravity closes the gap of a device.
     GapClosed {
         /// Sag of the tip (m).
@@ -116,6 +127,15 @@ impl Say for ModelError {
             Self::Buckled { c1 } => said(
                 "the magnet softens the beam past buckling: c1 = {c1} must be greater than -3, the stiffness of the beam's tip",
                 &[("c1", &six_digits(*c1))],
+            ),
+            Self::DampingRatio { ratio, first, minimum, maximum } => said(
+                "a damping ratio of {ratio} in mode 2 is not possible beside {first} in mode 1: allowed are {from} (all of it from the air) to {to} (all of it from the material)",
+                &[
+                    ("ratio", &beyond(*ratio, *minimum, *maximum)),
+                    ("first", &six_digits(*first)),
+                    ("from", &six_digits(*minimum)),
+                    ("to", &six_digits(*maximum)),
+                ],
             ),
             Self::GapClosed { sag, distance } => said(
                 "under gravity the tip sags {sag} m, which closes the magnets' distance of {distance} m",

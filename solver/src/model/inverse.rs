@@ -1,4 +1,4 @@
-//! From the ten numbers back to a device in SI units, and its excitation as an acceleration.
+//! From the dimensionless numbers back to a device in SI units, and its excitation as an acceleration.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,8 +10,9 @@ impl Device {
     /// that they leave open.
     ///
     /// Kept are L, E, I, m_b, radius and area of the magnets, mu, g and the ceramic; solved for are Lambda, B, Omega,
-    /// H, rho, D, m_t, C_eq, R_eq and Theta. The sign of c0 says whether the magnets repel; without magnets rho is 0
-    /// and `base` keeps its word. No load (kappa = 0) is an infinite resistance.
+    /// H, rho, D, m_t, J, e, a_m, C_eq, R_eq and Theta. The sign of c0 says whether the magnets repel; without magnets rho is 0
+    /// and `base` keeps its word. No load (kappa = 0) is an infinite resistance. Layers stay where they still give what
+    /// the device has.
     ///
     /// # Errors
     /// [`ModelError::OutOfRange`] or [`ModelError::NotFinite`] when a dimension comes out that is none, such as a flux
@@ -31,6 +32,9 @@ impl Device {
             flux_density: if set.c0 == 0.0 { 0.0 } else { strength / reach },
             repelling: if set.c0 == 0.0 { base.repelling } else { set.c0 > 0.0 },
             tip_mass: set.eta * base.beam_mass,
+            tip_inertia: set.j * base.beam_mass * length * length,
+            tip_offset: set.e * length,
+            air_damping: set.air / time,
             viscosity: set.alpha
                 * length
                 * (base.youngs_modulus * length * base.beam_mass / base.second_moment).sqrt(),
@@ -43,7 +47,7 @@ impl Device {
         };
         device.magnet_distance = set.d * length + device.sag();
         device.check()?;
-        Ok(device)
+        Ok(device.with_layers_that_hold())
     }
 
     /// What [`Self::from_parameters`] keeps of this device; all that it solves for is as in Table 1.

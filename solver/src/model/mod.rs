@@ -1,7 +1,9 @@
 //! Section 2 of the paper, in its order: device, parameters, magnet, modes, the reduced system.
 
 mod along;
+pub mod base_motion;
 pub mod choice;
+pub mod damping;
 pub mod device;
 pub mod dimension;
 pub mod eigenvalues;
@@ -10,6 +12,7 @@ pub mod error;
 pub mod fact;
 pub mod force;
 pub mod inverse;
+pub mod layers;
 pub mod limits;
 pub mod magnet;
 pub mod materials;
@@ -18,6 +21,7 @@ mod open_circuit;
 pub mod parameters;
 pub mod quadrature;
 pub mod reduced;
+pub mod substances;
 pub mod units;
 
 pub use along::{Along, Shaking};
@@ -27,6 +31,7 @@ pub use dimension::{Device, Dimension};
 pub use error::ModelError;
 pub use fact::{Fact, Part, Scale};
 pub use force::{ForceLaw, RestForce};
+pub use layers::Layers;
 pub use limits::{Demand, Limits};
 pub use magnet::{Equilibrium, Magnet};
 pub use modes::{Mode, ModeSet};

@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use super::quadrature::gauss_legendre;
-use super::{MAX_MODES, ModelError};
+use super::{MAX_MODES, ModelError, Parameters};
+
+mod turning;
 
 /// Points of the quadrature of the modal integrals; mode 8 has four waves, far below what 48 points resolve.
 const QUADRATURE_POINTS: usize = 48;
@@ -15,9 +17,9 @@ pub struct Mode {
     pub wave_number: f64,
     /// Natural angular frequency omega_n.
     pub omega: f64,
-    /// Participation eta_1n = eta + integral of phi_n.
+    /// Participation eta_1n = eta (1 + e phi_n'(1)) + integral of phi_n.
     pub eta1: f64,
-    /// Modal mass eta_2n = eta + integral of phi_n^2.
+    /// Modal mass eta_2n = eta (1 + e phi_n'(1))^2 + j phi_n'(1)^2 + integral of phi_n^2.
     pub eta2: f64,
     /// Slope of the mode at the tip, phi_n'(1); times theta it is the modal coupling theta_n of Eq. (27).
     pub tip_slope: f64,
@@ -37,6 +39,33 @@ impl Mode {
     }
 }
 
+/// What is fixed to the end of the beam, as the paper has it a point mass. All dimensionless.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tip {
+    /// Its mass over that of the beam, eta.
+    pub mass: f64,
+    /// Its rotary inertia j about its own centre, in m_b L^2.
+    pub inertia: f64,
+    /// Distance e of its centre from the end of the beam, outwards.
+    pub offset: f64,
+}
+
+impl Tip {
+    /// The tip of a device.
+    pub fn of(parameters: &Parameters) -> Self {
+        Self { mass: parameters.eta, inertia: parameters.j, offset: parameters.e }
+    }
+
+    fn is_point(&self) -> bool {
+        self.inertia == 0.0 && self.offset == 0.0
+    }
+
+    /// Rotary inertia about the end of the beam, j + eta e^2.
+    fn about_the_end(&self) -> f64 {
+        self.inertia + self.mass * self.offset * self.offset
+    }
+}
+
 /// The first modes of a beam, in ascending frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModeSet {
@@ -50,6 +79,14 @@ impl ModeSet {
     /// [`ModelError::Count`] unless `count` is 1 to [`MAX_MODES`]; [`ModelError::Buckled`] when c1 <= -3, where
     /// the first frequency would vanish.
     pub fn new(c1: f64, eta: f64, count: usize) -> Result<Self, ModelError> {
+        Self::with_tip(c1, Tip { mass: eta, ..Tip::default() }, count)
+    }
+
+    /// The same for a tip that turns with the beam's end.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_tip(c1: f64, tip: Tip, count: usize) -> Result<Self, ModelError> {
         if !(1..=MAX_MODES).contains(&count) {
             return Err(ModelError::Count { field: "modes", value: count, minimum: 1, maximum: MAX_MODES });
         }
@@ -59,20 +96,28 @@ impl ModeSet {
         let (nodes, weights) = gauss_legendre(QUADRATURE_POINTS);
         let modes = (1..=count)
             .map(|n| {
-                let wave_number = wave_number(c1, eta, n);
-                let shape = Shape::new(wave_number, c1, eta);
+                let (wave_number, shape) = if tip.is_point() {
+                    let wave_number = wave_number(c1, tip.mass, n);
+                    (wave_number, Shape::new(wave_number, c1, tip.mass))
+                } else {
+                    let wave_number = turning::wave_number(c1, &tip, n);
+                    (wave_number, turning::shape(wave_number, c1, &tip))
+                };
                 let (mut first, mut second) = (0.0, 0.0);
                 for (x, weight) in nodes.iter().zip(&weights) {
                     let value = shape.value(*x);
                     first += weight * value;
                     second += weight * value * value;
                 }
+                let tip_slope = shape.slope(1.0);
+                // The tip's centre moves as far as phi_n(1) + e phi_n'(1).
+                let centre = 1.0 + tip.offset * tip_slope;
                 Mode {
                     wave_number,
                     omega: wave_number * wave_number,
-                    eta1: eta + first,
-                    eta2: eta + second,
-                    tip_slope: shape.slope(1.0),
+                    eta1: tip.mass * centre + first,
+                    eta2: tip.mass * centre * centre + tip.inertia * tip_slope * tip_slope + second,
+                    tip_slope,
                     shape,
                 }
             })

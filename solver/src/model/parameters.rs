@@ -48,6 +48,21 @@ numbers! {
         symbol: "η", name: "Tip mass", title: "tip mass", part: Part::Beam,
         range: (0.0, 100.0), scale: Scale::LogarithmicFrom(1e-3),
     }
+    J j [""] = 0.0,
+    "Rotary inertia of the tip about its own centre, over that of the beam's mass at its length." {
+        symbol: "j", name: "Tip inertia", title: "rotary inertia of the tip", part: Part::Beam,
+        range: (0.0, 100.0), scale: Scale::LogarithmicFrom(1e-6),
+    }
+    E e [""] = 0.0,
+    "Distance of the tip's centre from the beam's end, outwards, in beam lengths." {
+        symbol: "e", name: "Tip offset", title: "offset of the tip's centre", part: Part::Beam,
+        range: (-1.0, 10.0), usual: (-0.2, 0.5),
+    }
+    Air air [""] = 0.0,
+    "Damping by the air, in proportion to mass: the lower a mode, the more it takes." {
+        symbol: "a_m", name: "Air damping", title: "damping by the air", part: Part::Beam,
+        range: (0.0, 10.0), scale: Scale::LogarithmicFrom(1e-4),
+    }
     C c ["per V^2"] = 1e-6,
     "Capacitance of the ceramic, times one volt squared." {
         symbol: "c", name: "Capacitance", title: "capacitance", part: Part::Circuit, shown: ("V⁻²", 1.0),

@@ -1,6 +1,7 @@
 //! The N-mode truncation (Eqs. 27-34): coefficients, right-hand side and its Jacobian side by side.
 
 use super::force::{Exact, Polynomial};
+use super::modes::Tip;
 use super::{Equilibrium, ForceLaw, Magnet, ModeSet, ModelError, Parameters, RestForce, state_dimension};
 
 /// The N-mode system, ready to be integrated.
@@ -8,7 +9,7 @@ use super::{Equilibrium, ForceLaw, Magnet, ModeSet, ModelError, Parameters, Rest
 /// The state is (q_1..q_N, dq_1/dt..dq_N/dt, v), of length 2N + 1, all dimensionless but v, which is in volts.
 #[derive(Debug, Clone)]
 pub struct ReducedSystem {
-    /// The ten numbers the system was made from.
+    /// The dimensionless numbers the system was made from.
     pub parameters: Parameters,
     /// Where the tip rests.
     pub equilibrium: Equilibrium,
@@ -39,7 +40,7 @@ impl ReducedSystem {
         let equilibrium = Equilibrium::new(&parameters)?;
         let magnet = Magnet { c0: parameters.c0, h: parameters.h };
         let c1 = magnet.taylor_coefficient(equilibrium.gap, 1);
-        let modes = ModeSet::new(c1, parameters.eta, modes)?;
+        let modes = ModeSet::with_tip(c1, Tip::of(&parameters), modes)?;
         let theta = modes.iter().map(|mode| parameters.theta * mode.tip_slope).collect();
         let capacitance = parameters.c;
         Ok(Self { parameters, equilibrium, modes, law, c1, theta, capacitance, residual_moment: false })
@@ -74,7 +75,7 @@ impl ReducedSystem {
     /// As [`Self::new`].
     pub fn with_numbers(&self, set: super::ParameterSet) -> Result<Self, ModelError> {
         let parameters = Parameters::new(set)?;
-        let structure = |set: &super::ParameterSet| [set.c0, set.d, set.h, set.eta];
+        let structure = |set: &super::ParameterSet| [set.c0, set.d, set.h, set.eta, set.j, set.e];
         if structure(&set) != structure(&self.parameters) {
             let system = Self::new(parameters, self.modes.len(), self.law)?;
             return Ok(system.with_residual_moment(self.residual_moment));
@@ -84,10 +85,10 @@ impl ReducedSystem {
         Ok(system.with_residual_moment(self.residual_moment))
     }
 
-    /// Whether nothing takes energy out: no viscosity, and no load that feels the beam.
+    /// Whether nothing takes energy out: no viscosity, no air, and no load that feels the beam.
     pub fn undamped(&self) -> bool {
         let p = &self.parameters;
-        p.alpha == 0.0 && (p.theta == 0.0 || p.kappa == 0.0)
+        p.alpha == 0.0 && p.air == 0.0 && (p.theta == 0.0 || p.kappa == 0.0)
     }
 
     /// Length 2N + 1 of the state.
@@ -151,7 +152,8 @@ impl ReducedSystem {
             let (position, velocity) = (state[k], state[n + k]);
             derivative[k] = velocity;
             derivative[n + k] = (common + drive * mode.eta1 - self.theta[k] * voltage) / mode.eta2
-                - mode.omega * mode.omega * (position + p.alpha * velocity);
+                - mode.omega * mode.omega * (position + p.alpha * velocity)
+                - p.air * velocity;
         }
         derivative[2 * n] = self.voltage_rate(state);
     }
@@ -169,7 +171,7 @@ impl ReducedSystem {
                 jacobian[(n + k, n + j)] = p.alpha * self.c1 / mode.eta2;
             }
             jacobian[(n + k, k)] -= mode.omega * mode.omega;
-            jacobian[(n + k, n + k)] -= p.alpha * mode.omega * mode.omega;
+            jacobian[(n + k, n + k)] -= p.alpha * mode.omega * mode.omega + p.air;
             jacobian[(n + k, 2 * n)] = -self.theta[k] / mode.eta2;
             jacobian[(2 * n, n + k)] = self.theta[k] / self.capacitance;
         }
@@ -190,7 +192,8 @@ mod tests {
 
     #[test]
     fn a_system_at_other_numbers_is_the_one_made_from_them() -> Result<(), ModelError> {
-        let base = system(3, ForceLaw::Exact);
+        let set = ParameterSet { j: 1e-3, e: 0.02, air: 0.05, ..Default::default() };
+        let base = ReducedSystem::new(Parameters::new(set)?, 3, ForceLaw::Exact)?;
         for parameter in crate::model::Parameter::ALL {
             let mut set = *base.parameters;
             *set.get_mut(parameter) *= 1.1;
@@ -211,7 +214,9 @@ mod tests {
     #[test]
     fn the_jacobian_is_the_derivative_by_finite_differences() {
         for (modes, law) in [(1, ForceLaw::Quadratic), (2, ForceLaw::Exact), (4, ForceLaw::Taylor(4))] {
-            let system = system(modes, law);
+            let set = ParameterSet { j: 1e-3, e: 0.02, air: 0.05, ..Default::default() };
+            let system =
+                ReducedSystem::new(Parameters::new(set).expect("in range"), modes, law).expect("a device");
             let force = system.rest_force();
             let state: Vec<f64> = (0..system.dimension()).map(|i| 0.01 * (1.0 + i as f64).sin()).collect();
             let evaluate = |state: &[f64]| {

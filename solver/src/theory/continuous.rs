@@ -23,32 +23,43 @@ impl ContinuousResponse {
     /// (1 + i alpha omega) p^4 = omega^2. The clamp moves with the base, w(0) = beta, w'(0) = 0; the tip bears the moment
     /// -theta v and the force of spring c_1 and mass eta; the circuit takes theta i omega w'(1).
     ///
+    /// Damping by the air acts on the motion relative to the base. Less a constant, w then obeys the same with
+    /// omega^2 - i omega a_m for omega^2 and beta omega^2/(omega^2 - i omega a_m) for beta. The tip turns about its own
+    /// centre, at the distance e from the end: it adds a moment and, by e, a force.
+    ///
     /// # Errors
     /// [`TheoryError::Undamped`] when there is no damping and omega is exactly an eigenfrequency.
     pub fn new(system: &ReducedSystem) -> Result<Self, TheoryError> {
         let p = &system.parameters;
         let rate = Complex::new(0.0, p.omega);
         let stiffness = rate * p.alpha + 1.0;
-        let inertia = p.omega * p.omega;
-        let wave = (Complex::from(inertia) / stiffness).powf(0.25);
+        let square = p.omega * p.omega;
+        let inertia = Complex::new(square, -p.omega * p.air);
+        let base = Complex::from(p.beta) * square / inertia;
+        let wave = (inertia / stiffness).powf(0.25);
         let (sin, cos, decay) = (wave.sin(), wave.cos(), (-wave).exp());
         let (zero, one) = (Complex::from(0.0), Complex::from(1.0));
         // Bending moment and shear are stiffness p^2 and stiffness p^3 times these.
         let (moment, shear) = (stiffness * wave * wave, stiffness * wave * wave * wave);
-        let tip = Complex::from(system.c1 - p.eta * inertia);
+        let tip = -inertia * p.eta + system.c1;
+        // Forces of the tip's slope and moments of its displacement, and moments of its slope.
+        let mixed = inertia * (p.eta * p.e) * wave;
+        let (lever, turning) = (inertia * (p.eta * p.e), inertia * (p.j + p.eta * p.e * p.e) * wave);
         let current = -rate * p.theta * wave;
         #[rustfmt::skip]
         let matrix = Matrix5::new(
             one, zero, one, decay, zero,
             zero, one, -one, decay, zero,
-            -moment * cos, -moment * sin, moment * decay, moment, Complex::from(p.theta),
-            shear * sin - tip * cos, -shear * cos - tip * sin, -(shear + tip) * decay, shear - tip, zero,
+            turning * sin - (moment + lever) * cos, -turning * cos - (moment + lever) * sin,
+            (moment + turning - lever) * decay, moment - turning - lever, Complex::from(p.theta),
+            (shear - mixed) * sin - tip * cos, (mixed - shear) * cos - tip * sin,
+            -(shear + tip + mixed) * decay, shear - tip + mixed, zero,
             -current * sin, current * cos, -current * decay, current, rate * p.c + p.kappa,
         );
-        let right = Vector5::new(one, zero, zero, Complex::from(-system.c1), zero) * Complex::from(p.beta);
+        let right = Vector5::new(one, zero, zero, Complex::from(-system.c1), zero) * base;
         let undamped = TheoryError::Undamped { omega: p.omega };
         let x = matrix.lu().solve(&right).ok_or(undamped.clone())?;
-        let response = Self { tip: x[0] * cos + x[1] * sin + x[2] * decay + x[3] - p.beta, voltage: x[4] };
+        let response = Self { tip: x[0] * cos + x[1] * sin + x[2] * decay + x[3] - base, voltage: x[4] };
         if response.tip.is_finite() && response.voltage.is_finite() { Ok(response) } else { Err(undamped) }
     }
 }

@@ -10,7 +10,7 @@ use crate::model::ReducedSystem;
 /// The symmetric matrix M(s) with M(s) Q = F for modal displacements Q e^(s t) under modal forces F e^(s t),
 /// after the voltage has been eliminated with Eq. (31):
 ///
-/// M_kn = eta_2k (s^2 + alpha omega_k^2 s + omega_k^2) delta_kn - alpha c_1 s
+/// M_kn = eta_2k (s^2 + (alpha omega_k^2 + a_m) s + omega_k^2) delta_kn - alpha c_1 s
 /// + s theta_k theta_n / (kappa + c s).
 ///
 /// It depends on the structure only, not on the excitation. N x N, dimensionless.
@@ -21,6 +21,7 @@ pub struct DynamicStiffness {
     eta2: Vec<f64>,
     theta: Vec<f64>,
     alpha: f64,
+    air: f64,
     c1: f64,
     c: f64,
     kappa: f64,
@@ -37,6 +38,7 @@ impl DynamicStiffness {
             eta2: modes.iter().map(|mode| mode.eta2).collect(),
             theta: system.theta.clone(),
             alpha: p.alpha,
+            air: p.air,
             c1: system.c1,
             c: system.capacitance,
             kappa: p.kappa,
@@ -47,7 +49,9 @@ impl DynamicStiffness {
     pub fn matrix(&self, s: Complex<f64>) -> DMatrix<Complex<f64>> {
         let electrical = s / (s * self.c + self.kappa);
         let viscous = s * (self.alpha * self.c1);
-        self.assemble(electrical, viscous, |omega| s * s + (s * self.alpha + 1.0) * (omega * omega))
+        self.assemble(electrical, viscous, |omega| {
+            s * s + (s * self.alpha + 1.0) * (omega * omega) + s * self.air
+        })
     }
 
     /// dM/ds, N x N.
@@ -55,7 +59,7 @@ impl DynamicStiffness {
         let admittance = s * self.c + self.kappa;
         let electrical = Complex::from(self.kappa) / (admittance * admittance);
         let viscous = Complex::from(self.alpha * self.c1);
-        self.assemble(electrical, viscous, |omega| s * 2.0 + self.alpha * omega * omega)
+        self.assemble(electrical, viscous, |omega| s * 2.0 + (self.alpha * omega * omega + self.air))
     }
 
     /// p'(s)/p(s) of the characteristic polynomial p = (kappa + c s) det M. `None` exactly at a root.

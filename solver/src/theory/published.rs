@@ -53,7 +53,8 @@ impl Resonance {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Published {
     modes: [Mode; 2],
-    /// m_1 and m_2, the stiffness that Kelvin-Voigt damping acts on (dimensionless).
+    /// m_1 and m_2, the stiffness that Kelvin-Voigt damping acts on (dimensionless). With damping by the air, which the
+    /// paper leaves out, alpha m_k + a_m eta_2k takes the place of alpha m_k: here m_k, with 1 for alpha.
     bending: [f64; 2],
     alpha: f64,
     c2: f64,
@@ -71,7 +72,12 @@ impl Published {
         let modes = [system.modes[0].clone(), system.modes[1].clone()];
         let bending = [0, 1].map(|k| modes[k].omega * modes[k].omega * modes[k].eta2 - system.c1);
         let c2 = system.magnet().taylor_coefficient(system.equilibrium.gap, 2);
-        Ok(Self { modes, bending, alpha: system.parameters.alpha, c2 })
+        let (alpha, air) = (system.parameters.alpha, system.parameters.air);
+        if air > 0.0 {
+            let bending = [0, 1].map(|k| alpha * bending[k] + air * modes[k].eta2);
+            return Ok(Self { modes, bending, alpha: 1.0, c2 });
+        }
+        Ok(Self { modes, bending, alpha, c2 })
     }
 
     /// Centre of the resonance, omega_1 + omega_2, 2 omega_1 or 2 omega_2 (dimensionless).

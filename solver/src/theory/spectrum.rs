@@ -71,7 +71,7 @@ fn energy_matrix(system: &ReducedSystem) -> DMatrix<f64> {
         for (j, other) in system.modes.iter().enumerate() {
             matrix[(n + k, n + j)] = p.alpha * system.c1 / (mode.eta2 * other.eta2).sqrt();
         }
-        matrix[(n + k, n + k)] -= p.alpha * mode.omega * mode.omega;
+        matrix[(n + k, n + k)] -= p.alpha * mode.omega * mode.omega + p.air;
         let coupling = system.theta[k] / (mode.eta2 * system.capacitance).sqrt();
         matrix[(n + k, 2 * n)] = -coupling;
         matrix[(2 * n, n + k)] = coupling;

@@ -9,6 +9,7 @@
 
 pub(super) mod measured;
 pub(super) mod questions;
+pub(super) mod shaking;
 
 use measured::Measured;
 

@@ -14,6 +14,8 @@ use crate::questions::harvest::Harvest;
 use crate::questions::load::{BestAt, Load, LoadStudy};
 use crate::questions::materials::{Fitted, Materials};
 use crate::questions::motions::{Coordinate, at_place};
+use crate::questions::rectifier::Rectifier;
+use crate::questions::tolerances::Tolerances;
 use crate::questions::trust::{Entry, Trust};
 use crate::scenario::{Forgotten, Scenario};
 use crate::scheduler::Table;
@@ -86,6 +88,21 @@ pub(in crate::app) fn harvest(view: &View, session: &Session) -> (Scenario, Harv
 /// The curves over the load, at the frequency in view.
 pub(in crate::app) fn load(view: &View) -> (Scenario, Load) {
     (view.scenario.forgetting(&[Forgotten::Duration]), Load::default())
+}
+
+/// A rectifier in place of the load, which plays no role then.
+pub(in crate::app) fn rectifier(view: &View) -> (Scenario, Rectifier) {
+    let kappa = ParameterSet::default().get(Parameter::Kappa);
+    let scenario =
+        view.scenario.forgetting(&[Forgotten::Duration, Forgotten::Number(Parameter::Kappa, kappa)]);
+    (scenario, Rectifier { drop: view.design.diode_drop, ..Rectifier::default() })
+}
+
+/// What scatter does to the device in view.
+pub(in crate::app) fn tolerances(view: &View) -> (Scenario, Tolerances) {
+    let (limits, resonance) = (bench::chosen_limits(view), view.design.resonance);
+    let asked = Tolerances { deviation: view.design.scatter, limits, resonance, ..Tolerances::default() };
+    (view.scenario.forgetting(&[Forgotten::Duration]), asked)
 }
 
 /// The ceramics on the device in view. What they replace plays no role and must not make another question.

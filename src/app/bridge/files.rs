@@ -136,7 +136,7 @@ fn open() -> Option<()> {
             let input: HtmlInputElement = document.create_element("input").ok()?.dyn_into().ok()?;
             input.set_id(INPUT);
             input.set_type("file");
-            input.set_accept(".json,.csv,.tsv,.txt,.dat,application/json,text/*");
+            input.set_accept(".json,.csv,.tsv,.txt,.dat,.lvm,.asc,application/json,text/*");
             input.set_hidden(true);
             let chosen = input.clone();
             let listener = Closure::<dyn FnMut()>::new(move || {

@@ -8,6 +8,7 @@ use crate::questions::design::Operating;
 use crate::questions::design::find::FindQuestion;
 use crate::questions::design::linear::{LinearBest, linear_at_its_best};
 use crate::questions::find::FindStudy;
+use crate::questions::fit::{Fit, FitStudy};
 use crate::questions::harvest::{Deliver, HarvestStudy};
 use crate::questions::load::LoadStudy;
 use crate::scenario::Scenario;
@@ -60,6 +61,17 @@ impl Studies {
         self.ended = false;
         let study = FindStudy::new(question, view.design.search.generations, SEED);
         lane.ask(study?);
+        Ok(())
+    }
+
+    /// Begins a fit.
+    ///
+    /// # Errors
+    /// What of the question is out of range.
+    pub(in crate::app) fn fit(&mut self, (scenario, fit): (Scenario, Fit)) -> Result<(), Sentence> {
+        let Some(lane) = self.lanes.lane_mut::<FitStudy>() else { return Ok(()) };
+        let study = FitStudy::new(scenario, fit).map_err(|error| Sentence::Verbatim(error.to_string()))?;
+        lane.ask(study);
         Ok(())
     }
 

@@ -15,7 +15,7 @@ fn desk(width: f32, stored: &str) -> Desk {
 
 #[test]
 fn tab_reaches_every_control_of_every_page_and_brings_it_into_view() {
-    let pages = ["harvest", "load", "materials", "trust", "search", "measured"];
+    let pages = ["harvest", "load", "materials", "trust", "search", "tolerances", "measured"];
     let tabs = ["explore", "live", "stability", "sweep", "paper"].map(|tab| (tab, "harvest"));
     for (tab, page) in tabs.into_iter().chain(pages.map(|page| ("design", page))) {
         for width in [360.0, 1440.0] {

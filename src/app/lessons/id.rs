@@ -11,7 +11,7 @@ use super::data::Lesson;
 pub const STEPS: usize = 12;
 
 /// Names and texts of the lessons, in the order in which they are offered.
-const SOURCES: [(&str, &str); 11] = [
+const SOURCES: [(&str, &str); 13] = [
     ("tour", include_str!("../../../assets/lessons/tour.json")),
     ("resonance", include_str!("../../../assets/lessons/resonance.json")),
     ("quadratic", include_str!("../../../assets/lessons/quadratic.json")),
@@ -23,6 +23,8 @@ const SOURCES: [(&str, &str); 11] = [
     ("basins", include_str!("../../../assets/lessons/basins.json")),
     ("escape", include_str!("../../../assets/lessons/escape.json")),
     ("harvest", include_str!("../../../assets/lessons/harvest.json")),
+    ("chirp", include_str!("../../../assets/lessons/chirp.json")),
+    ("random", include_str!("../../../assets/lessons/random.json")),
 ];
 
 /// The name of the lesson of one's own, and that lesson, once a file has brought one.

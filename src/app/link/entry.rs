@@ -57,10 +57,7 @@ pub fn edit(view: &View, name: &str, text: &str) -> Result<View, Problem> {
 fn edited_device(view: &View, name: &str, edited: &View) -> Option<Result<Device, ModelError>> {
     let dimension = Dimension::named(name)?;
     let stored = edited.scenario.device.filter(|_| dimension.decided_by().is_some())?;
-    Some(bench::device(&view.scenario).map(|mut device| {
-        *device.get_mut(dimension) = stored.get(dimension);
-        device
-    }))
+    Some(bench::device(&view.scenario).map(|device| device.with(dimension, stored.get(dimension))))
 }
 
 #[cfg(test)]

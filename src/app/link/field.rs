@@ -11,6 +11,24 @@ use crate::sentence::{Say, Sentence, allowed, said};
 
 /// Where the device's dimensions stand.
 const DEVICE: &str = "/scenario/device";
+/// Where its layers stand, all of them one entry: an arrangement without the numbers that go with it would mean nothing.
+const LAYERS: &str = "/scenario/device/layers";
+/// The numbers of that entry behind the arrangement, in their order; the last three where the glue counts.
+const LAYER_NUMBERS: [&str; 12] = [
+    "width",
+    "substrate/thickness",
+    "substrate/youngs_modulus",
+    "substrate/density",
+    "ceramic/thickness",
+    "ceramic/youngs_modulus",
+    "ceramic/density",
+    "ceramic/d31",
+    "ceramic/permittivity",
+    "epoxy/thickness",
+    "epoxy/youngs_modulus",
+    "epoxy/density",
+];
+const WITHOUT_GLUE: usize = 9;
 /// Left out of names: what stands there is known well enough by its last name.
 const SILENT: [&str; 4] = ["/scenario/parameters/", "/scenario/model/", "/scenario/device/", "/scenario/"];
 /// The version of a scenario is that of the link.
@@ -50,7 +68,7 @@ pub(super) fn fields() -> Vec<Field> {
 /// Gathers the places of what holds nothing else; a list of numbers or words is one.
 fn leaves(value: &Value, place: &str, found: &mut Vec<String>) {
     match value {
-        Value::Object(entries) => {
+        Value::Object(entries) if place != LAYERS => {
             entries.iter().for_each(|(name, entry)| leaves(entry, &format!("{place}/{name}"), found));
         }
         Value::Array(parts) if parts.iter().any(Value::is_object) => {
@@ -107,6 +125,10 @@ impl Field {
     /// with it is another question.
     pub(super) fn read(&self, text: &str, view: &Value) -> Result<Value, Sentence> {
         let mut problem = said("allowed is {word}", &[("word", &"paper")]);
+        if self.is_layers() {
+            let counts: [(&str, &dyn Say); 2] = [("count", &WITHOUT_GLUE), ("more", &LAYER_NUMBERS.len())];
+            problem = said("allowed are an arrangement and {count} numbers, or {more} with glue", &counts);
+        }
         for value in self.meanings(text.trim()) {
             match self.with(view, &value) {
                 Ok(_) => return Ok(value),
@@ -130,6 +152,9 @@ impl Field {
         if self.is_device() {
             return (text == "paper").then(|| Value::Object(Map::new())).into_iter().collect();
         }
+        if self.is_layers() {
+            return layers(text).into_iter().collect();
+        }
         let meant = |word: &str| number(word).unwrap_or_else(|| Value::from(word));
         let mut meanings: Vec<Value> = text.parse().map(Value::Bool).into_iter().collect();
         meanings.extend((self.is_open_circuit(text)).then_some(Value::Null));
@@ -147,6 +172,10 @@ impl Field {
         meanings
     }
 
+    fn is_layers(&self) -> bool {
+        self.pointer == LAYERS
+    }
+
     fn is_open_circuit(&self, text: &str) -> bool {
         self.name == "resistance" && text == "open"
     }
@@ -154,6 +183,7 @@ impl Field {
     /// A value as text.
     pub(super) fn write(&self, value: &Value) -> String {
         match value {
+            Value::Object(_) if self.is_layers() => self.write_layers(value),
             Value::Null => "open".to_owned(),
             Value::Bool(flag) => flag.to_string(),
             Value::String(word) => word.clone(),
@@ -172,6 +202,12 @@ impl Field {
                 })
                 .collect(),
         }
+    }
+
+    fn write_layers(&self, value: &Value) -> String {
+        let arrangement = value.get("arrangement").and_then(Value::as_str).unwrap_or_default().to_owned();
+        let numbers = LAYER_NUMBERS.iter().filter_map(|place| value.pointer(&format!("/{place}")));
+        numbers.fold(arrangement, |text, number| text + " " + &self.write(number))
     }
 
     /// What a number may be, and whether it is a whole one: what the check of a view says of one that is far too large.
@@ -217,6 +253,27 @@ fn insert(view: &mut Value, parent: &str, key: &str, value: Value) {
     if let Some(Value::Object(entries)) = view.pointer_mut(parent) {
         entries.insert(key.to_owned(), value);
     }
+}
+
+/// Layers as their entry gives them: the arrangement and its numbers.
+fn layers(text: &str) -> Option<Value> {
+    let mut words = text.split([' ', ',']).filter(|word| !word.is_empty());
+    let arrangement = Value::from(words.next()?);
+    let numbers: Vec<Value> = words.map(number).collect::<Option<_>>()?;
+    if numbers.len() != LAYER_NUMBERS.len() && numbers.len() != WITHOUT_GLUE {
+        return None;
+    }
+    let mut layers = Map::from_iter([("arrangement".to_owned(), arrangement)]);
+    for (place, number) in LAYER_NUMBERS.iter().zip(numbers) {
+        match place.split_once('/') {
+            None => _ = layers.insert((*place).to_owned(), number),
+            Some((layer, name)) => {
+                let layer = layers.entry(layer).or_insert_with(|| Value::Object(Map::new()));
+                _ = layer.as_object_mut()?.insert(name.to_owned(), number);
+            }
+        }
+    }
+    Some(Value::Object(layers))
 }
 
 /// A finite number.

@@ -13,6 +13,7 @@ use crate::export::number::shortest;
 use crate::model::materials::Ceramic;
 use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Parameter, ParameterSet};
 use crate::questions::chart::Quantity;
+use crate::questions::design::published::BIMORPH;
 use crate::scenario::{ModelChoice, VERSION};
 
 proptest! {
@@ -65,7 +66,7 @@ fn every_field_of_a_view_is_in_links_and_no_other() {
     let lesson = LessonId::named("escape");
     let mut view = View { dark: Some(true), enlarged: Some(Panel::Chart), lesson, ..View::default() };
     view.sweep.range = Some((1.0, 2.0));
-    view.scenario.device = Some(Device { ceramic: Some(Ceramic::Apc850), ..Device::default() });
+    view.scenario.device = Some(Device { ceramic: Some(Ceramic::Apc850), ..BIMORPH.device() });
     view.scenario.scaling = ElectricalScaling::Consistent;
     view.scenario.initial = Some(vec![0.0; 5]);
     view.scenario.model.residual_moment = true;
@@ -74,9 +75,13 @@ fn every_field_of_a_view_is_in_links_and_no_other() {
     leaves(&value, "", &mut paths);
     // The version of a scenario is the version of the link.
     paths.retain(|path| path != "/scenario/version");
+    // Layers are one entry, whatever they hold.
+    const LAYERS: &str = "/scenario/device/layers";
+    paths.iter_mut().filter(|path| path.starts_with(LAYERS)).for_each(|path| LAYERS.clone_into(path));
     let mut known: Vec<String> = fields().into_iter().map(|field| field.pointer).collect();
     known.retain(|pointer| pointer != "/scenario/device");
     paths.sort();
+    paths.dedup();
     known.sort();
     assert_eq!(paths, known, "a field of View is missing in View::complete, or one there is gone");
     let mut names: Vec<String> = fields().into_iter().map(|field| field.name).collect();
@@ -278,4 +283,25 @@ fn what_is_wrong_with_a_link_can_be_translated() {
         let left = verbatim(&problem.reason);
         assert!(!left.iter().any(|left| *left != given && is_sentence(left)), "{problem}: {left:?}");
     }
+}
+
+#[test]
+fn layers_are_one_entry_of_a_link() {
+    let mut view = View::default();
+    BIMORPH.put_into(&mut view.scenario).expect("a device");
+    let link = write(&view);
+    let layers = "layers=series+0.0318+0.00014+1.05e11+9000+0.00026+6.6e10+7800+-1.9e-10+1.328e-8";
+    assert!(link.contains(layers), "{link}");
+    let (read_back, problems) = read(&link, &View::default());
+    assert!(
+        problems.is_empty() && read_back.scenario.device().expect("a device").layers.is_some(),
+        "{problems:?}"
+    );
+    assert_eq!(read_back.scenario, view.scenario);
+    for wrong in ["layers=series", "layers=pile+1+2+3+4+5+6+7+8+9", "layers=series+x+2+3+4+5+6+7+8+9"] {
+        let (view, problems) = read(&format!("v=1&{wrong}"), &View::default());
+        assert!(problems.len() == 1 && view.scenario.device.is_none(), "{wrong}: {problems:?}");
+    }
+    // What is written of no layers is what it was.
+    assert!(!write(&View { scenario: Scenario::default(), ..View::default() }).contains("layers"));
 }

@@ -146,7 +146,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, map: &DesignMap) {
         for i in [0, 1] {
             let (low, high) = variables[i].range;
             let value = (axes[i].value(moved[i]) / factors[i]).clamp(low, high);
-            *device.get_mut(sides[i]) = round_significant(value, 5);
+            device = device.with(sides[i], round_significant(value, 5));
         }
         if context.view.design.holds_acceleration && !sides.contains(&Dimension::BaseAmplitude) {
             device = device.with_acceleration(present.acceleration());

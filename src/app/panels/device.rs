@@ -1,6 +1,8 @@
 //! The device in SI units: every dimension on a slider, and the base's motion.
 
+mod damping;
 mod excitation;
+mod layers;
 mod parts;
 mod presets;
 mod refusal;
@@ -9,6 +11,7 @@ use egui::{RichText, Ui};
 
 pub(super) use self::excitation::excitation;
 pub(super) use self::parts::structure;
+pub(super) use self::presets::name as published_name;
 use super::{Context, facts};
 use crate::app::command::Command;
 use crate::app::text::{fill, tr};
@@ -16,7 +19,7 @@ use crate::app::view::{Tab, View, opening};
 use crate::app::widgets::chips;
 use crate::app::widgets::number::prefix;
 use crate::app::{bench, theme};
-use crate::model::{Device, Dimension, ElectricalScaling};
+use crate::model::{Device, Dimension, ElectricalScaling, Layers};
 
 /// Whether the left column is the device.
 pub(super) fn is_shown(view: &View) -> bool {
@@ -58,7 +61,7 @@ fn slider(ui: &mut Ui, device: &mut Device, dimension: Dimension, scaling: Elect
     let slider = facts::slider_in(fact, factor, &mut value).default_value(default).unit(scaling.unit(unit));
     let changed = slider.compact().show(ui).changed;
     if changed {
-        *device.get_mut(dimension) = value / factor;
+        *device = device.with(dimension, value / factor);
     }
     changed
 }
@@ -75,6 +78,7 @@ pub(super) fn alone(context: &mut Context<'_>, ui: &mut Ui, dimension: Dimension
 /// Takes a changed device over, or says why it is none. The consistent scaling is that of a device of one's own, for
 /// which the modes left out count in the circuit; the printed one is the paper's, where they do not.
 pub(super) fn adopt(context: &mut Context<'_>, device: Device, scaling: ElectricalScaling) {
+    let scaling = if device.layers.is_some() { Layers::SCALING } else { scaling };
     let mut scenario = context.view.scenario.clone();
     if scaling != scenario.scaling {
         scenario.model.residual_moment = scaling == ElectricalScaling::Consistent;

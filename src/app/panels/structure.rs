@@ -16,6 +16,7 @@ const FIRST_DEGREE: usize = 5;
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let scenario = context.view.scenario.clone();
     let mut changed = scenario.clone();
+    let layered = scenario.device().is_ok_and(|device| device.layers.is_some());
     let set = &mut changed.parameters;
     for (parts, title) in [
         (&[Part::Magnets][..], tr("Magnet")),
@@ -29,7 +30,9 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         let summary: Vec<String> = members.iter().map(value).collect();
         Fold::new(title).summary(&summary.join("  ")).show(ui, |ui| {
             for parameter in members {
-                number(ui, set, parameter);
+                // Layers decide these.
+                let decided = layered && matches!(parameter, Parameter::C | Parameter::Theta);
+                ui.add_enabled_ui(!decided, |ui| number(ui, set, parameter));
             }
         });
     }

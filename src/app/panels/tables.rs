@@ -79,7 +79,10 @@ fn table(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui)) {
 
 fn device(ui: &mut Ui) {
     let device = Device::default();
-    let printed = |dimension: &Dimension| !matches!(dimension.fact().part, Part::Main | Part::Ceramic);
+    // The paper leaves out what is zero here.
+    let printed = |dimension: &Dimension| {
+        !matches!(dimension.fact().part, Part::Main | Part::Ceramic) && device.get(*dimension) != 0.0
+    };
     table(ui, "device", |ui| {
         // The meaning last: on a phone it may reach beyond the edge.
         heading(ui, &[tr("symbol"), tr("value"), tr("unit"), tr("meaning")]);
@@ -106,7 +109,7 @@ fn numbers(ui: &mut Ui) {
     let (Ok(printed), Ok(consistent)) = (printed, consistent) else { return };
     table(ui, "numbers", |ui| {
         heading(ui, &[tr("number"), tr("as printed"), tr("consistent units")]);
-        for parameter in Parameter::ALL {
+        for parameter in Parameter::ALL.into_iter().filter(|parameter| printed.get(*parameter) != 0.0) {
             symbol(ui, parameter.fact().symbol);
             value(ui, printed.get(parameter));
             value(ui, consistent.get(parameter));

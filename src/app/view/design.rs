@@ -2,9 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::shake::ShakeView;
 use crate::model::{Dimension, Limits, MAX_MODES, ModelError};
 use crate::questions::design::trust::Quantity;
 use crate::questions::find::GENERATIONS;
+pub use crate::questions::rectifier::DROPS;
+pub use crate::questions::tolerances::SCATTERS;
 use crate::scenario::counted;
 use crate::theory::Resonance;
 
@@ -23,8 +26,12 @@ pub enum Page {
     Trust,
     /// Maps and the search for a design.
     Search,
+    /// What the scatter of dimensions does.
+    Tolerances,
     /// Measured data over computed curves.
     Measured,
+    /// Shaken by chirps and noise.
+    Shake,
 }
 
 /// What is drawn over frequency.
@@ -142,6 +149,10 @@ pub struct DesignView {
     pub window: Option<(f64, f64)>,
     /// Power (W) that counts as usable; half of the highest when absent.
     pub least: Option<f64>,
+    /// Forward drop of a rectifier's diode (V).
+    pub diode_drop: f64,
+    /// Standard deviation of every dimension, over its value.
+    pub scatter: f64,
     /// What must be kept. Its voltage is that of the ceramic where it is not given.
     pub limits: Limits,
     /// The mode that gets a ceramic's quality factor, from 1.
@@ -152,6 +163,8 @@ pub struct DesignView {
     pub quantity: Quantity,
     /// What is searched.
     pub search: SearchView,
+    /// How the device is shaken on the page Shake.
+    pub shake: ShakeView,
 }
 
 impl Default for DesignView {
@@ -164,11 +177,14 @@ impl Default for DesignView {
             logarithmic: false,
             window: None,
             least: None,
+            diode_drop: 0.0,
+            scatter: 0.01,
             limits: Limits::default(),
             mode: 1,
             resonance: Resonance::First,
             quantity: Quantity::Power,
             search: SearchView::default(),
+            shake: ShakeView::default(),
         }
     }
 }
@@ -185,7 +201,10 @@ impl DesignView {
         if let Some(least) = self.least {
             ModelError::check("design.least", least, POWERS, " W")?;
         }
+        ModelError::check("design.diode_drop", self.diode_drop, DROPS, " V")?;
+        ModelError::check("design.scatter", self.scatter, SCATTERS, "")?;
         self.limits.validate()?;
+        self.shake.check()?;
         counted("design.mode", self.mode, (1, MAX_MODES))?;
         counted("design.search.generations", self.search.generations, GENERATIONS)?;
         for side in self.search.sides.iter().chain(&self.search.third) {

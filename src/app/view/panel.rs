@@ -24,9 +24,15 @@ macro_rules! panels {
             Response response
             Harvest harvest
             Load load
+            Store store
             MagnetForce magnet_force
             DesignMap design_map
+            Tolerances tolerances
             Measured measured
+            ShakenVoltage shaken_voltage
+            ShakenSpectrum shaken_spectrum
+            ShakenPower shaken_power
+            ShakenWith shaken_with
         }
     };
 }

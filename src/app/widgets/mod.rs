@@ -14,6 +14,7 @@ pub mod qr;
 pub mod raster;
 pub mod recorder;
 pub mod row;
+pub mod section_view;
 pub mod series;
 pub mod swatch;
 pub mod tabs;

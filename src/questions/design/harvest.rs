@@ -23,7 +23,7 @@ pub struct Harvest {
     pub power_per_g2: Option<f64>,
     /// Mean power that the shaken base puts in (W).
     pub input: f64,
-    /// Mean power lost in the material's damping (W).
+    /// Mean power lost in the material's damping and to the air (W).
     pub viscous: f64,
     /// Mean power lost in the dielectric (W).
     pub dielectric: f64,

@@ -30,16 +30,17 @@ pub fn linear_balance(system: &ReducedSystem) -> Result<Balance, DesignError> {
     let p = &system.parameters;
     let (omega, square) = (p.omega, p.omega * p.omega);
     let tip = response.tip().norm();
-    let (mut input, mut viscous) = (0.0, -system.c1 * square * tip * tip);
+    let (mut input, mut viscous, mut air) = (0.0, -system.c1 * square * tip * tip, 0.0);
     for (mode, q) in system.modes.iter().zip(response.displacements.iter()) {
         // The velocity i omega q against a force that is real.
         input -= mode.eta1 * omega * q.im;
         viscous += mode.eta2 * mode.omega * mode.omega * square * q.norm_sqr();
+        air += mode.eta2 * square * q.norm_sqr();
     }
     let v_peak = response.voltage.norm();
     Ok(Balance {
         input: 0.5 * square * p.beta * input,
-        viscous: 0.5 * p.alpha * viscous,
+        viscous: 0.5 * (p.alpha * viscous + p.air * air),
         stored: 0.0,
         measures: Measures {
             v_rms: v_peak * std::f64::consts::FRAC_1_SQRT_2,
@@ -177,7 +178,11 @@ fn frequencies(system: &ReducedSystem, window: (f64, f64), count: usize) -> Resu
 }
 
 /// Where `f` is highest between the ends of a bracket that holds one peak, by as many golden sections.
-pub(super) fn highest_place(f: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64), sections: usize) -> f64 {
+pub(super) fn highest_place(
+    mut f: impl FnMut(f64) -> f64,
+    (mut low, mut high): (f64, f64),
+    sections: usize,
+) -> f64 {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut a, mut b) = (high - golden * (high - low), low + golden * (high - low));
     let (mut at_a, mut at_b) = (f(a), f(b));

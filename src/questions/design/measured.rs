@@ -1,36 +1,16 @@
-//! Measured data: columns of numbers from a text file, (time, voltage) or (frequency, voltage), a slice at a time.
+//! Measured data: two columns of numbers from a text file, time or frequency and any quantity, a slice at a time.
 //!
-//! Delimiter, decimal comma, header and preamble are found by themselves; which columns are meant, and in which units,
-//! is said by [`Columns`].
+//! `decode`, then `detect` how it is written, then `choose` the columns of the quantity wanted, as far as their names say
+//! which these are ([`super::columns`]); [`super::record`] says what is the matter with the times.
 
 use std::io::Cursor;
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
-use serde::{Deserialize, Serialize};
 
-pub use super::layout::{FIRST, Layout, detect, look};
-use super::layout::{number, quoted};
+pub use super::columns::{Ask, Choice, Columns, Kind};
+pub use super::layout::{FIRST, Layout, Sampling, decode, detect, detect_with, look};
+use super::layout::{Reading, quoted, reading};
 pub use super::measured_error::MeasuredError;
-
-/// Which columns are meant, counted from 0, and what turns their numbers into seconds or Hz, and volts.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Columns {
-    /// Column of time or frequency.
-    pub x: usize,
-    /// Seconds or Hz per unit of it, such as 1e-3 for milliseconds.
-    pub x_unit: f64,
-    /// Column of the voltage.
-    pub y: usize,
-    /// Volts per unit of it.
-    pub y_unit: f64,
-}
-
-impl Default for Columns {
-    /// The first two, in SI units.
-    fn default() -> Self {
-        Self { x: 0, x_unit: 1.0, y: 1, y_unit: 1.0 }
-    }
-}
 
 /// A file being read.
 #[derive(Debug)]
@@ -42,6 +22,9 @@ pub struct Import {
     start: usize,
     length: u64,
     points: Vec<[f64; 2]>,
+    /// Rows read, and how many of them were left out because a value was out of the instrument's range.
+    rows: usize,
+    over_range: usize,
     record: ByteRecord,
 }
 
@@ -49,8 +32,12 @@ impl Import {
     /// Begins to read `text`, written as `layout` says.
     ///
     /// # Errors
-    /// [`MeasuredError::Column`] when a column does not exist, [`MeasuredError::Unit`] when a unit is no number or 0.
+    /// [`MeasuredError::Commas`] when it is not known what commas are, [`MeasuredError::Column`] when a column does not
+    /// exist, [`MeasuredError::Unit`] when a unit is no number or 0.
     pub fn new(text: Vec<u8>, layout: Layout, columns: Columns) -> Result<Self, MeasuredError> {
+        if layout.unsure {
+            return Err(MeasuredError::Commas);
+        }
         for (field, value) in [("x", columns.x), ("y", columns.y)] {
             if value >= layout.columns {
                 return Err(MeasuredError::Column { field, value, last: layout.columns - 1 });
@@ -70,9 +57,19 @@ impl Import {
             .delimiter(layout.delimiter)
             .has_headers(false)
             .flexible(true)
-            .comment(Some(b'#'))
+            .comment(Some(layout.comment))
             .from_reader(cursor);
-        Ok(Self { reader, layout, columns, start, length, points: Vec::new(), record: ByteRecord::new() })
+        Ok(Self {
+            reader,
+            layout,
+            columns,
+            start,
+            length,
+            points: Vec::new(),
+            rows: 0,
+            over_range: 0,
+            record: ByteRecord::new(),
+        })
     }
 
     /// Reads up to `rows` further rows; whether the end is reached.
@@ -93,8 +90,20 @@ impl Import {
                 continue;
             }
             let Columns { x, x_unit, y, y_unit } = self.columns;
-            let point = [self.field(x)? * x_unit, self.field(y)? * y_unit];
-            self.points.push(point);
+            let x = match self.layout.sampling {
+                Some(Sampling { start, increment, count: None }) => {
+                    Some(start + increment * self.rows as f64)
+                }
+                Some(Sampling { start, increment, count: Some(count) }) => {
+                    self.field(count)?.map(|count| start + increment * count)
+                }
+                None => self.field(x)?.map(|x| x * x_unit),
+            };
+            self.rows += 1;
+            match (x, self.field(y)?) {
+                (Some(x), Some(y)) => self.points.push([x, y * y_unit]),
+                _ => self.over_range += 1,
+            }
         }
         Ok(false)
     }
@@ -109,7 +118,12 @@ impl Import {
         &self.points
     }
 
-    /// The same, when nothing more is to be read.
+    /// How many rows were left out because the instrument marked them as out of its range.
+    pub fn over_range(&self) -> usize {
+        self.over_range
+    }
+
+    /// The points, when nothing more is to be read.
     pub fn into_points(self) -> Vec<[f64; 2]> {
         self.points
     }
@@ -120,21 +134,19 @@ impl Import {
         let text = self.reader.get_ref().get_ref().as_slice();
         let place = self.record.position().map_or(0, csv::Position::byte) as usize + self.start;
         let (before, rest) = text.split_at(place.min(text.len()));
-        let skipped = rest
-            .split_inclusive(|byte| *byte == b'\n')
-            .take_while(|line| line.starts_with(b"#") || line.iter().all(|byte| b"\r\n".contains(byte)));
+        let skipped = rest.split_inclusive(|byte| *byte == b'\n').take_while(|line| {
+            line.first() == Some(&self.layout.comment) || line.iter().all(|byte| b"\r\n".contains(byte))
+        });
         let breaks = before.iter().filter(|byte| **byte == b'\n').count();
         (1 + breaks + skipped.count()) as u64
     }
 
-    fn field(&self, column: usize) -> Result<f64, MeasuredError> {
-        let bytes = if self.layout.delimiter == b' ' {
-            self.record.iter().filter(|field| !field.is_empty()).nth(column)
-        } else {
-            self.record.get(column)
-        };
-        let delimiter = [self.layout.delimiter];
-        let Some(bytes) = bytes else {
+    /// The number in a column; `None` where it was out of range.
+    fn field(&self, column: usize) -> Result<Option<f64>, MeasuredError> {
+        let place = if self.layout.joined { 2 * column } else { column };
+        let fields = || self.record.iter().filter(|field| self.layout.delimiter != b' ' || !field.is_empty());
+        let Some(bytes) = fields().nth(place) else {
+            let delimiter = [self.layout.delimiter];
             let content = self.record.iter().collect::<Vec<_>>().join(&delimiter[..]);
             return Err(MeasuredError::Missing {
                 line: self.line(),
@@ -143,11 +155,16 @@ impl Import {
                 content: quoted(&String::from_utf8_lossy(&content)),
             });
         };
-        let value = std::str::from_utf8(bytes).ok().and_then(|text| number(text, self.layout.decimal_comma));
-        value.ok_or_else(|| MeasuredError::Number {
-            line: self.line(),
-            column: column + 1,
-            content: quoted(&String::from_utf8_lossy(bytes)),
-        })
+        let mut text = String::from_utf8_lossy(bytes).into_owned();
+        if let (true, Some(decimals)) = (self.layout.joined, fields().nth(place + 1)) {
+            text = format!("{}.{}", text.trim(), String::from_utf8_lossy(decimals).trim());
+        }
+        match reading(&text, self.layout.decimal_comma) {
+            Some(Reading::Number(value)) => Ok(Some(value)),
+            Some(Reading::OverRange) => Ok(None),
+            None => {
+                Err(MeasuredError::Number { line: self.line(), column: column + 1, content: quoted(&text) })
+            }
+        }
     }
 }

@@ -8,8 +8,8 @@ use crate::sentence::{Say, Sentence, not_available, said};
 pub enum MeasuredError {
     /// There is nothing in it.
     Empty,
-    /// In an encoding that is not read.
-    Utf16,
+    /// Nobody has said what its commas are.
+    Commas,
     /// No text at all.
     Binary {
         /// Which byte, from 1.
@@ -83,7 +83,7 @@ impl Say for MeasuredError {
     fn say(&self) -> Sentence {
         match self {
             Self::Empty => said("the file is empty", &[]),
-            Self::Utf16 => said("it is UTF-16 text: save it as UTF-8", &[]),
+            Self::Commas => said("its commas may be decimal commas or stand between columns: say which", &[]),
             Self::Binary { place } => {
                 said("it is no text: byte {place} is no character of one", &[("place", place)])
             }

@@ -8,6 +8,7 @@
 //!   [`rotation`] has means and frequencies by weighted Birkhoff averages, `zero_one` the 0-1 test for chaos, [`lyapunov`]
 //!   the exponents, from the growth of `tangent` vectors. `meter` measures what does not repeat.
 //! * [`dielectric`] takes a dielectric's loss at the frequency of the motion that it has a part in.
+//! * [`rectified`] follows the device with a rectifier until its cycle repeats.
 //! * [`signature`] tells whether two starts lead to the same motion; [`sweep`] carries a motion from one value of a
 //!   parameter to the next.
 //! * [`spectrum`] has lines, [`spectral_label`] their names, [`voltage_spectrum`] those of a motion's voltage.
@@ -23,6 +24,7 @@ mod meter;
 pub mod motion;
 mod neighbourhood;
 pub mod poincare;
+pub mod rectified;
 pub mod rotation;
 pub mod settle;
 pub mod signature;

@@ -5,7 +5,7 @@
 //! the kernel is of the order of the step squared, so each pass gains about two digits. Linear vibration, damping
 //! and circuit are carried exactly by [`StepTables`], so stiff high modes and short circuit times cost nothing.
 //!
-//! Steps are fractions of the excitation period, halved and doubled by an estimate of the interpolation error of
+//! Steps are fractions of the excitation period (or, under any other motion of the base, of the time between two of its samples), halved and doubled by an estimate of the interpolation error of
 //! R; stroboscopic points therefore fall on the grid. The method stops working when R changes within a step by
 //! more than the iteration can follow; the step is then halved, and a motion that needs steps below 2^-20 of a
 //! period has escaped, touched, or is reported as unresolvable.
@@ -29,6 +29,8 @@
 //! What is read off a run lies on the motion, not on its grid: `integration::extremes` keeps the steps that may hold
 //! an extreme and reads it there by dense output; means are over whole pairs of excitation periods.
 
+use std::sync::Arc;
+
 use super::grid::{DEEPEST_LEVEL, Grid};
 use super::linear::LinearPart;
 use super::outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
@@ -36,6 +38,7 @@ use super::propagator::{BLOCK, Propagator, StepRest, Workspace};
 use super::rule::{NODES, NodeValues, RULE, add_scaled};
 use super::step::Step;
 use super::tables::StepTables;
+use crate::model::base_motion::Signal;
 use crate::model::{ReducedSystem, RestForce};
 
 /// Most passes of the fixed-point iteration before a step counts as too long.
@@ -75,7 +78,7 @@ pub struct Collocation {
     force: RestForce,
     settings: Settings,
     grid: Grid,
-    beta: f64,
+    excitation: Excitation,
     gap: f64,
     /// Tables of each level used so far, boxed because a step takes them out and puts them back.
     tables: Vec<Option<Box<StepTables>>>,
@@ -86,10 +89,26 @@ pub struct Collocation {
     steps: u64,
 }
 
+/// What shakes the base.
+#[derive(Debug, Clone)]
+enum Excitation {
+    /// A sine of this amplitude, whose frequency and phase are the grid's.
+    Sine { beta: f64 },
+    /// Any acceleration (dimensionless).
+    Signal(Arc<Signal>),
+}
+
 /// What happened to an attempted step.
 enum Attempt {
     Accepted { error: f64 },
     Rejected,
+}
+
+impl Excitation {
+    /// The sine of a system.
+    fn of(system: &ReducedSystem) -> Self {
+        Self::Sine { beta: system.parameters.beta }
+    }
 }
 
 impl Collocation {
@@ -117,7 +136,38 @@ impl Collocation {
     ) -> Result<Self, IntegrationError> {
         let grid = Grid::new(system, phase);
         let propagator = Propagator::new(&LinearPart::new(system), grid.longest_step());
-        Self::prepared(system, initial, (grid, propagator, None), settings)
+        Self::prepared(system, Excitation::of(system), initial, (grid, propagator, None), settings)
+    }
+
+    /// An integrator of `system` whose base has the acceleration `signal` (dimensionless: in beam lengths and the model's unit
+    /// of time), at time 0 in the state `initial` (length 2N + 1). Its own sine plays no role. Every sample is the end of a step,
+    /// so a run may last as long as the signal.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn under(
+        system: &ReducedSystem,
+        signal: Arc<Signal>,
+        initial: &[f64],
+        settings: Settings,
+    ) -> Result<Self, IntegrationError> {
+        let grid = Grid::under(system, &signal);
+        let propagator = Propagator::new(&LinearPart::under(system, &signal), grid.longest_step());
+        Self::prepared(system, Excitation::Signal(signal), initial, (grid, propagator, None), settings)
+    }
+
+    /// As [`Self::from_phase`], with the voltage held at that of `initial`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn clamped(
+        system: &ReducedSystem,
+        initial: &[f64],
+        settings: Settings,
+    ) -> Result<Self, IntegrationError> {
+        let grid = Grid::new(system, 0.0);
+        let propagator = Propagator::new(&LinearPart::new(system).clamped(), grid.longest_step());
+        Self::prepared(system, Excitation::of(system), initial, (grid, propagator, None), settings)
     }
 
     /// As [`Self::new`], where flow and tables of the longest step of `system` are there already.
@@ -131,11 +181,13 @@ impl Collocation {
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
         let tables = Some(Box::new(tables.clone()));
-        Self::prepared(system, initial, (Grid::new(system, 0.0), propagator.clone(), tables), settings)
+        let grid = Grid::new(system, 0.0);
+        Self::prepared(system, Excitation::of(system), initial, (grid, propagator.clone(), tables), settings)
     }
 
     fn prepared(
         system: &ReducedSystem,
+        excitation: Excitation,
         initial: &[f64],
         (grid, propagator, longest): (Grid, Propagator, Option<Box<StepTables>>),
         settings: Settings,
@@ -145,14 +197,14 @@ impl Collocation {
         tables[0] = longest;
         let mut integrator = Self {
             part: propagator.part().clone(),
+            extended: vec![0.0; propagator.part().extended_dimension()],
             propagator,
             grid,
             force: system.rest_force(),
             settings,
-            beta: system.parameters.beta,
+            excitation,
             gap: system.equilibrium.gap,
             tables,
-            extended: vec![0.0; dimension + 2],
             end: vec![0.0; dimension.next_multiple_of(BLOCK)],
             rest: [0.0; NODES],
             tip: [0.0; NODES],
@@ -176,9 +228,23 @@ impl Collocation {
         Ok(())
     }
 
+    /// Begins anew as [`Self::restart`] does, with the excitation's `phase` (radians) at time 0 and steps as long as the last.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn begin_at(&mut self, initial: &[f64], phase: f64) -> Result<(), IntegrationError> {
+        let dimension = self.part.modes * 2 + 1;
+        check_state(initial, dimension)?;
+        self.grid.begin_at(phase);
+        self.extended[..dimension].copy_from_slice(initial);
+        self.excite();
+        self.steps = 0;
+        Ok(())
+    }
+
     /// Changes the excitation's amplitude, for the next run.
     pub(in crate::dynamics) fn set_beta(&mut self, beta: f64) {
-        self.beta = beta;
+        self.excitation = Excitation::Sine { beta };
     }
 
     /// Present time (dimensionless).
@@ -402,9 +468,17 @@ impl Collocation {
     /// The excitation at the present grid point.
     fn excite(&mut self) {
         let dimension = self.part.modes * 2 + 1;
-        let (sine, cosine) = self.grid.sine_and_cosine();
-        self.extended[dimension] = self.beta * sine;
-        self.extended[dimension + 1] = self.beta * cosine;
+        match &self.excitation {
+            Excitation::Sine { beta } => {
+                let (sine, cosine) = self.grid.sine_and_cosine();
+                self.extended[dimension] = beta * sine;
+                self.extended[dimension + 1] = beta * cosine;
+            }
+            Excitation::Signal(signal) => {
+                let (index, place) = self.grid.place();
+                self.extended[dimension..].copy_from_slice(&signal.derivatives(index, place));
+            }
+        }
     }
 
     /// Doubles the step when the error leaves ample room and the grid allows it.

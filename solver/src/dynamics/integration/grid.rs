@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use crate::model::ReducedSystem;
+use crate::model::base_motion::Signal;
 
 /// Most grid points of a period of which something is kept.
 const MOST_KEPT: usize = 1024;
@@ -43,7 +44,15 @@ struct Known {
 impl Grid {
     /// Time 0 of `system`, where the excitation has this `phase` (radians).
     pub(super) fn new(system: &ReducedSystem, phase: f64) -> Self {
-        let (period, coarsest) = (system.parameters.period(), coarsest_steps(system));
+        Self::of(system.parameters.period(), phase, coarsest_steps(system))
+    }
+
+    /// Time 0 of `system` under a signal: its intervals take the place of periods, so that every sample is a grid point.
+    pub(super) fn under(system: &ReducedSystem, signal: &Signal) -> Self {
+        Self::of(signal.interval(), 0.0, steps_within(signal.interval(), followed(system)))
+    }
+
+    fn of(period: f64, phase: f64, coarsest: usize) -> Self {
         Self { period, phase, coarsest, level: 0, periods: 0, index: 0, overtime: 0.0, known: Vec::new() }
     }
 
@@ -51,6 +60,12 @@ impl Grid {
     pub(super) fn restart(&mut self) {
         (self.level, self.periods, self.index, self.overtime) = (0, 0, 0, 0.0);
         self.known.iter_mut().flatten().for_each(|known| known.refused = None);
+    }
+
+    /// Goes back to time 0 with another `phase` (radians) of the excitation there; steps are as long as the last.
+    pub(super) fn begin_at(&mut self, phase: f64) {
+        (self.phase, self.periods, self.index, self.overtime) = (phase, 0, 0, 0.0);
+        self.known.clear();
     }
 
     /// Present time (dimensionless).
@@ -87,6 +102,11 @@ impl Grid {
     /// How many of the longest steps the whole periods done hold.
     pub(super) fn longest_steps_done(&self) -> u64 {
         self.coarsest as u64 * self.periods
+    }
+
+    /// Whole periods done, and which part of the present one.
+    pub(super) fn place(&self) -> (usize, f64) {
+        (self.periods as usize, self.index as f64 / self.steps_per_period() as f64)
     }
 
     fn steps_per_period(&self) -> usize {
@@ -164,9 +184,19 @@ impl Grid {
 /// Steps a period at level 0: one step for about two thirds of a vibration of the faster of the excitation's
 /// second harmonic and the second mode, which R follows.
 pub(in crate::dynamics) fn coarsest_steps(system: &ReducedSystem) -> usize {
+    let fastest = (2.0 * system.parameters.omega).max(followed(system));
+    steps_within(system.parameters.period(), fastest)
+}
+
+/// Frequency of the fastest mode whose vibration R follows.
+fn followed(system: &ReducedSystem) -> f64 {
     let modes = &system.modes;
-    let fastest = (2.0 * system.parameters.omega).max(modes[modes.len().min(2) - 1].omega);
-    ((fastest * system.parameters.period() / 4.0).ceil() as usize).max(1)
+    modes[modes.len().min(2) - 1].omega
+}
+
+/// Steps of a duration in which nothing followed is faster than `fastest`.
+fn steps_within(duration: f64, fastest: f64) -> usize {
+    ((fastest * duration / 4.0).ceil() as usize).max(1)
 }
 
 #[cfg(test)]

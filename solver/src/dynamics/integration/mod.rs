@@ -8,7 +8,9 @@
 //!   nodes, [`tables`] what a step of one length needs, in part as [`node_map`]s; `grid` says where steps begin and end,
 //!   [`step`] is one of them as it is shown, `variation` its derivative.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`ongoing`] is a motion without an end, whose numbers may
-//!   change on the way.
+//!   change on the way; [`shaken`] is a motion under any shaking of the base.
+//! * [`rectified`] is a run with a rectifier in place of the load: two linear parts, and the instants at which one gives way
+//!   to the other.
 //! * `extremes` reads what lies between the nodes of steps, [`measures`] the numbers of a motion, [`summary`] a run while it
 //!   is computed.
 //!
@@ -23,8 +25,10 @@ pub mod node_map;
 pub mod ongoing;
 pub mod outcome;
 pub mod propagator;
+pub mod rectified;
 pub mod rk4;
 pub mod rule;
+pub mod shaken;
 pub mod step;
 pub mod summary;
 pub mod tables;
@@ -36,5 +40,6 @@ pub use measures::Measures;
 pub use ongoing::{Ongoing, Reach};
 pub use outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome, RunError};
 pub use rule::NODES;
+pub use shaken::Shaken;
 pub use step::Step;
 pub use trajectory::Trajectory;

@@ -12,7 +12,7 @@ pub struct NodeMap {
 }
 
 impl NodeMap {
-    /// The part that comes from the state at the start of the step (extended, length 2N + 3).
+    /// The part that comes from the state at the start of the step (extended).
     #[inline]
     pub fn free(&self, extended: &[f64]) -> NodeValues {
         let mut sum = [0.0; NODES];

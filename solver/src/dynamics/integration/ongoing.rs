@@ -35,7 +35,7 @@ pub enum Reach {
 struct Present {
     from: f64,
     length: f64,
-    /// Extended state (length 2N + 3) at the start, and at `offset` after it.
+    /// Extended state at the start, and at `offset` after it.
     start: Vec<f64>,
     state: Vec<f64>,
     offset: f64,

@@ -145,7 +145,7 @@ impl Propagator {
         }
     }
 
-    /// What a unit of component `column` of the vector at the start (from 2N + 3 on: of R at the nodes) does to the
+    /// What a unit of component `column` of the vector at the start (beyond it: of R at the nodes) does to the
     /// first entries of the vector after the longest duration.
     pub(in crate::dynamics) fn end_column(&self, column: usize, out: &mut [f64]) {
         let Some(flow) = self.flows.last() else { return };
@@ -222,7 +222,7 @@ impl Propagator {
         RULE.to_cardinal(&of_legendre)
     }
 
-    /// Carries `y` (length 2N + 3) from one offset within a step to a later one, both in units of time from the
+    /// Carries `y` (extended) from one offset within a step to a later one, both in units of time from the
     /// step's start and no further apart than the longest duration.
     pub(in crate::dynamics) fn carry(
         &self,

@@ -9,7 +9,7 @@ use super::tables::StepTables;
 pub struct Step<'a> {
     /// Time at the start of the step (dimensionless).
     pub time: f64,
-    /// Extended state at the start, length 2N + 3: the state, then beta times sine and cosine of omega t.
+    /// Extended state at the start: the state, then what generates the excitation (see [`super::linear`]).
     pub start: &'a [f64],
     /// R at the nodes.
     pub rest: &'a NodeValues,

@@ -89,7 +89,7 @@ impl StepTables {
     /// See [`Self::end_gain`]: the two highest Legendre coefficients of the end state's response to R, as
     /// displacements (velocities divided by their mode's frequency).
     fn high_degrees_of_the_propagator(&self, part: &LinearPart) -> f64 {
-        let from_rest = &self.end[(self.dimension + 2) * self.stride..];
+        let from_rest = &self.end[part.extended_dimension() * self.stride..];
         let mut most: f64 = 0.0;
         for row in &RULE.highest_of_weighted {
             for k in 0..2 * part.modes {
@@ -119,7 +119,7 @@ impl StepTables {
         }
     }
 
-    /// What a unit of component `column` of the extended state at the start (from 2N + 3 on: of R at the nodes)
+    /// What a unit of component `column` of the extended state at the start (beyond it: of R at the nodes)
     /// does to the state at the end; padded to [`Self::stride`].
     #[inline]
     pub(crate) fn end_column(&self, column: usize) -> &[f64] {

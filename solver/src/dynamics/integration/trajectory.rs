@@ -103,7 +103,7 @@ impl Trajectory {
     /// The state (length 2N + 1) at `time`, which is clamped to the record.
     pub fn state_at(&self, time: f64) -> Vec<f64> {
         let mut cursor = Cursor::default();
-        let mut out = vec![0.0; self.width - 2];
+        let mut out = vec![0.0; self.propagator.part().dimension()];
         self.read(time, &mut cursor, &mut out);
         out
     }
@@ -121,7 +121,7 @@ impl Trajectory {
 
     fn read_each(&self, times: impl Iterator<Item = f64>, mut read: impl FnMut(f64, &[f64])) {
         let mut cursor = Cursor::default();
-        let mut out = vec![0.0; self.width - 2];
+        let mut out = vec![0.0; self.propagator.part().dimension()];
         for time in times {
             self.read(time, &mut cursor, &mut out);
             read(time, &out);
@@ -129,7 +129,7 @@ impl Trajectory {
     }
 
     fn read(&self, time: f64, cursor: &mut Cursor, out: &mut [f64]) {
-        let dimension = self.width - 2;
+        let dimension = self.propagator.part().dimension();
         if self.is_empty() || time >= self.end_time {
             out.copy_from_slice(&self.final_state);
             return;

@@ -7,12 +7,17 @@ use proptest::sample::select;
 
 use crate::app::lessons::{LessonId, STEPS};
 use crate::app::text::Language;
-use crate::app::view::design::{Aim, DesignView, FREQUENCIES, POWERS, Page, SearchView, Side, Watched};
+use crate::app::view::design::{
+    Aim, DROPS, DesignView, FREQUENCIES, POWERS, Page, SCATTERS, SearchView, Side, Watched,
+};
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
+use crate::app::view::shake::ShakeView;
 use crate::app::view::{MapWindow, Output, Panel, SweepView, Tab, View};
 use crate::dynamics::attractors::sweep::Dwell;
+use crate::model::layers::Sheet;
 use crate::model::materials::Ceramic;
-use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Limits, Parameter, ParameterSet};
+use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Layers, Limits, Parameter, ParameterSet};
+use crate::questions::design::published::{BIMORPH, UNIMORPH};
 use crate::questions::design::trust::Quantity;
 use crate::questions::{chart, curves};
 use crate::scenario::{END_TIME, ModelChoice, Scenario, VERSION};
@@ -34,30 +39,39 @@ fn within((low, high): (f64, f64)) -> impl Strategy<Value = f64> {
     prop_oneof![anywhere, small, round, Just(low), Just(high)]
 }
 
-fn parameters() -> impl Strategy<Value = ParameterSet> {
-    Parameter::ALL.map(|parameter| option::of(within(parameter.range()))).prop_map(|numbers| {
+/// Boxed, as the device: the many numbers would overflow the stack of a test.
+fn parameters() -> BoxedStrategy<ParameterSet> {
+    let numbers = Parameter::ALL.map(|parameter| option::of(within(parameter.range()).boxed()).boxed());
+    let set = numbers.prop_map(|numbers| {
         let mut set = ParameterSet::default();
         for (parameter, number) in Parameter::ALL.into_iter().zip(numbers) {
             *set.get_mut(parameter) = number.unwrap_or(set.get(parameter));
         }
         set
-    })
+    });
+    set.boxed()
 }
 
-fn device() -> impl Strategy<Value = Device> {
-    let numbers = Dimension::ALL.map(|dimension| option::of(within(dimension.range())));
-    (numbers, any::<bool>(), any::<bool>(), option::of(select(&Ceramic::ALL[..]))).prop_map(
-        |(numbers, repelling, open, ceramic)| {
-            let mut device = Device { repelling, ceramic, ..Device::default() };
-            for (dimension, number) in Dimension::ALL.into_iter().zip(numbers) {
-                *device.get_mut(dimension) = number.unwrap_or(device.get(dimension));
-            }
-            if open {
-                device.resistance = f64::INFINITY;
-            }
-            device
-        },
-    )
+fn device() -> BoxedStrategy<Device> {
+    let numbers = Dimension::ALL.map(|dimension| option::of(within(dimension.range()).boxed()).boxed());
+    let layers = option::of((select(&[UNIMORPH, BIMORPH][..]), option::of(within((1e-6, 1e-3)))));
+    let device =
+        (numbers.boxed(), any::<bool>(), any::<bool>(), option::of(select(&Ceramic::ALL[..])), layers);
+    let device = device.prop_map(|(numbers, repelling, open, ceramic, layered)| {
+        let layers = layered.and_then(|(published, glue)| {
+            let layers = published.device().layers?;
+            Some(Layers { epoxy: glue.map(|thickness| Sheet { thickness, ..layers.substrate }), ..layers })
+        });
+        let mut device = Device { repelling, ceramic, layers, ..Device::default() };
+        for (dimension, number) in Dimension::ALL.into_iter().zip(numbers) {
+            *device.get_mut(dimension) = number.unwrap_or(device.get(dimension));
+        }
+        if open {
+            device.resistance = f64::INFINITY;
+        }
+        device
+    });
+    device.boxed()
 }
 
 fn scenario() -> impl Strategy<Value = Scenario> {
@@ -125,8 +139,15 @@ fn search() -> impl Strategy<Value = SearchView> {
 }
 
 fn design() -> impl Strategy<Value = DesignView> {
-    const PAGES: [Page; 6] =
-        [Page::Harvest, Page::Load, Page::Materials, Page::Trust, Page::Search, Page::Measured];
+    const PAGES: [Page; 7] = [
+        Page::Harvest,
+        Page::Load,
+        Page::Materials,
+        Page::Trust,
+        Page::Search,
+        Page::Tolerances,
+        Page::Measured,
+    ];
     const WATCHED: [Watched; 5] =
         [Watched::Power, Watched::PerG2, Watched::Voltage, Watched::Peak, Watched::Tip];
     let resonance = || select(&Resonance::ALL[..]);
@@ -139,20 +160,33 @@ fn design() -> impl Strategy<Value = DesignView> {
     let front = (select(&PAGES[..]), select(&WATCHED[..]), 1..=8_usize, resonance(), quantity);
     let flags = any::<[bool; 3]>();
     let window = option::of((within(FREQUENCIES), within(FREQUENCIES)));
-    (front, flags, window, option::of(within(POWERS)), limits(), search()).prop_map(
-        |((page, watched, mode, resonance, quantity), flags, window, least, limits, search)| DesignView {
-            page,
-            dimensionless: flags[0],
-            holds_acceleration: flags[1],
-            watched,
-            logarithmic: flags[2],
+    let watts = (option::of(within(POWERS)), within(DROPS), within(SCATTERS));
+    (front, flags, window, watts, limits(), search()).prop_map(
+        |(
+            (page, watched, mode, resonance, quantity),
+            flags,
             window,
-            least,
+            (least, diode_drop, scatter),
             limits,
-            mode,
-            resonance,
-            quantity,
             search,
+        )| {
+            DesignView {
+                page,
+                dimensionless: flags[0],
+                holds_acceleration: flags[1],
+                watched,
+                logarithmic: flags[2],
+                window,
+                least,
+                diode_drop,
+                scatter,
+                limits,
+                mode,
+                resonance,
+                quantity,
+                search,
+                shake: ShakeView::default(),
+            }
         },
     )
 }

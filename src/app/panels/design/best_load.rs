@@ -25,6 +25,8 @@ pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
     ui.add_space(grid::GAP);
     Card::new(tr("Best load and frequency")).hugging().show(ui, |ui| both(context, ui));
     ui.add_space(grid::GAP);
+    Card::new(tr("Rectifier")).hugging().show(ui, |ui| super::store::controls(context, ui));
+    ui.add_space(grid::GAP);
     Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
 }
 

@@ -4,23 +4,28 @@ pub(super) mod alignment;
 pub(super) mod bands;
 mod beside;
 mod best_load;
+pub(super) mod fitting;
 pub(super) mod going;
 mod held;
+mod known;
 mod limits;
 mod materials;
 pub(super) mod measure;
 pub(super) mod optimum;
 pub(in crate::app) mod safety;
 pub(super) mod search;
+pub(super) mod shaking;
+mod store;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod tolerances;
 mod trust;
 
 use egui::Ui;
 
 use self::beside::beside;
-use super::{Context, grid, measured};
+use super::{Context, grid, measured, plots};
 use crate::app::bench::questions;
 use crate::app::crew::Studies;
 use crate::app::text::tr;
@@ -40,7 +45,13 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Page::Materials => materials::show(context, ui),
         Page::Trust => trust::show(context, ui),
         Page::Search => beside(context, ui, search::cards),
+        Page::Tolerances => beside(context, ui, tolerances::cards),
         Page::Measured => beside(context, ui, measured::cards),
+        Page::Shake => {
+            shaking::show(context, ui);
+            ui.add_space(grid::GAP);
+            plots::cards(context, ui);
+        }
     }
 }
 
@@ -51,7 +62,7 @@ pub(in crate::app) fn ask(studies: &mut Studies, view: &View) {
         Page::Harvest => studies.load(view),
         Page::Materials => studies.tabulate(questions::materials(view)),
         Page::Trust => studies.tabulate(questions::trust(view)),
-        Page::Load | Page::Search | Page::Measured => {}
+        Page::Load | Page::Search | Page::Tolerances | Page::Measured | Page::Shake => {}
     }
 }
 
@@ -62,7 +73,9 @@ fn choose(context: &mut Context<'_>, ui: &mut Ui) {
         (Page::Materials, tr("Materials")),
         (Page::Trust, tr("Trust")),
         (Page::Search, tr("Search")),
+        (Page::Tolerances, tr("Tolerances")),
         (Page::Measured, tr("Measured")),
+        (Page::Shake, tr("Shake")),
     ];
     let mut page = context.view.design.page;
     if tabs(ui, &mut page, &pages) {

@@ -15,7 +15,7 @@ fn desk(width: f32, page: &str) -> Desk {
 
 #[test]
 fn every_page_draws_on_a_phone_and_on_a_desk_without_labels_over_each_other() {
-    for page in ["harvest", "load", "materials", "trust", "search", "measured"] {
+    for page in ["harvest", "load", "materials", "trust", "search", "tolerances", "measured"] {
         for width in [360.0, 1440.0] {
             let mut desk = desk(width, page);
             desk.work(20);

@@ -3,6 +3,7 @@
 use egui::{Grid, RichText, Ui};
 
 use super::beside::LEAST_HEIGHT;
+use super::known;
 use crate::app::panels::magnet_force::NAMES;
 use crate::app::panels::spec::Place;
 use crate::app::panels::{Context, grid, list, plots};
@@ -43,12 +44,16 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         ui.add_space(grid::GAP);
         convergence(context, ui);
         ui.add_space(grid::GAP);
+        known::show(ui);
+        ui.add_space(grid::GAP);
         plots(context, ui, LEAST_HEIGHT);
     } else {
         ui.columns(2, |columns| {
             convergence(context, &mut columns[0]);
             columns[0].add_space(grid::GAP);
             switch(context, &mut columns[0]);
+            columns[0].add_space(grid::GAP);
+            known::show(&mut columns[0]);
             plots(context, &mut columns[1], room.y);
         });
     }

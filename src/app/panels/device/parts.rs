@@ -2,7 +2,7 @@
 
 use egui::{RichText, Ui};
 
-use super::{adopt, device_of, slider};
+use super::{adopt, damping, device_of, layers, slider};
 use crate::app::panels::Context;
 use crate::app::panels::structure::model_and_start;
 use crate::app::text::tr;
@@ -10,7 +10,7 @@ use crate::app::widgets::number::{short, with_unit};
 use crate::app::widgets::{Fold, chips};
 use crate::app::{bench, theme};
 use crate::model::inverse::Magnets;
-use crate::model::{Device, Dimension, ElectricalScaling, Part};
+use crate::model::{Device, Dimension, ElectricalScaling, Layers, Part};
 use crate::scenario::Scenario;
 
 /// Beam, magnets, circuit, ceramic, model and start.
@@ -18,7 +18,7 @@ pub(in crate::app::panels) fn structure(context: &mut Context<'_>, ui: &mut Ui) 
     if let Some(device) = device_of(context, ui) {
         let before = context.view.scenario.scaling;
         let (mut changed, mut scaling) = (device, before);
-        beam(ui, &mut changed, scaling);
+        beam(context, ui, &mut changed, scaling);
         magnets(ui, &mut changed, scaling);
         circuit(ui, &mut changed, &mut scaling);
         if (changed, scaling) != (device, before) {
@@ -34,17 +34,22 @@ pub(in crate::app::panels) fn structure(context: &mut Context<'_>, ui: &mut Ui) 
 }
 
 fn sliders(ui: &mut Ui, device: &mut Device, parts: &[Part], scaling: ElectricalScaling) {
-    for dimension in Dimension::of(parts) {
+    let decided = |dimension: &Dimension| device.layers.is_some() && Layers::DECIDED.contains(dimension);
+    let mut own = Dimension::of(parts);
+    own.retain(|dimension| !decided(dimension));
+    for dimension in own {
         slider(ui, device, dimension, scaling);
     }
 }
 
-fn beam(ui: &mut Ui, device: &mut Device, scaling: ElectricalScaling) {
+fn beam(context: &mut Context<'_>, ui: &mut Ui, device: &mut Device, scaling: ElectricalScaling) {
     let of = |dimension: Dimension, device: &Device| short(dimension.fact().shown.1 * device.get(dimension));
     let summary =
         format!("L {} mm  ·  {} g", of(Dimension::BeamLength, device), of(Dimension::BeamMass, device));
     Fold::new(tr("Beam")).summary(&summary).default_open(true).show(ui, |ui| {
+        layers::show(ui, device);
         sliders(ui, device, &[Part::Beam], scaling);
+        damping::show(context, ui);
     });
 }
 
@@ -69,6 +74,9 @@ fn circuit(ui: &mut Ui, device: &mut Device, scaling: &mut ElectricalScaling) {
     let load = with_unit(device.resistance, "Ω");
     Fold::new(tr("Circuit and ceramic")).summary(&load).default_open(true).show(ui, |ui| {
         sliders(ui, device, &[Part::Circuit, Part::Ceramic], *scaling);
+        if device.layers.is_some() {
+            return;
+        }
         let choices = [
             (ElectricalScaling::AsPrinted, tr("as printed")),
             (ElectricalScaling::Consistent, tr("consistent units")),

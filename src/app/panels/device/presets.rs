@@ -1,10 +1,11 @@
-//! Devices to begin with: the paper's, and a small one of one's own.
+//! Devices to begin with: the paper's, published ones, and a small one of one's own.
 
 use super::Context;
 use crate::app::command::Command;
 use crate::app::text::tr;
 use crate::model::materials::Ceramic;
 use crate::model::{Device, ElectricalScaling, Parameter, STANDARD_GRAVITY};
+use crate::questions::design::published::{BIMORPH, PAPER, Published, UNIMORPH};
 use crate::sentence::Sentence;
 
 /// A steel beam of 60 mm with a ceramic patch and small neodymium magnets, shaken at 0.2 g near its first resonance
@@ -23,6 +24,9 @@ const STEEL_BEAM: Device = Device {
     youngs_modulus: 200e9,
     second_moment: 2.25e-14,
     viscosity: 8.2e6,
+    tip_inertia: 0.0,
+    tip_offset: 0.0,
+    air_damping: 0.0,
     gravity: STANDARD_GRAVITY,
     capacitance: 13e-9,
     resistance: 18e3,
@@ -32,14 +36,24 @@ const STEEL_BEAM: Device = Device {
     ceramic_thickness: 0.2e-3,
     loss_tangent: 0.02,
     ceramic: Some(Ceramic::Apc850),
+    layers: None,
 };
+
+/// What a published device is called.
+pub(in crate::app::panels) fn name(published: &Published) -> &'static str {
+    match published.name {
+        name if name == UNIMORPH.name => tr("Unimorph of 2008"),
+        name if name == BIMORPH.name => tr("Bimorph T226-A4"),
+        _ => tr("Table 1: the paper's device"),
+    }
+}
 
 /// The buttons.
 pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
     let mut taken = None;
     ui.horizontal_wrapped(|ui| {
         let small = |text: &str| egui::RichText::new(text.to_owned()).small();
-        if ui.button(small(tr("Table 1: the paper's device"))).clicked() {
+        if ui.button(small(name(&PAPER))).on_hover_text(PAPER.source).clicked() {
             // It keeps its excitation.
             let own = context.view.scenario.parameters;
             let mut scenario = context.view.scenario.clone();
@@ -51,7 +65,15 @@ pub(super) fn buttons(context: &mut Context<'_>, ui: &mut egui::Ui) {
                 scenario
             }));
         }
-        if ui.button(small(tr("60 mm steel beam"))).clicked() {
+        for published in [UNIMORPH, BIMORPH] {
+            if ui.button(small(name(&published))).on_hover_text(published.source).clicked() {
+                let mut scenario = context.view.scenario.clone();
+                scenario.model.residual_moment = true;
+                taken = Some(published.put_into(&mut scenario).map(|()| scenario));
+            }
+        }
+        let example = tr("An example, not published: a steel strip with a ceramic patch, shaken at 0.2 g.");
+        if ui.button(small(tr("60 mm steel beam"))).on_hover_text(example).clicked() {
             let mut scenario = context.view.scenario.clone();
             scenario.model.residual_moment = true;
             taken = Some(scenario.set_device(STEEL_BEAM, ElectricalScaling::Consistent).map(|()| scenario));

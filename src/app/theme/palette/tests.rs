@@ -79,7 +79,7 @@ struct PlotOf {
 }
 
 /// What the panels draw into one plot.
-const PLOTS: [PlotOf; 14] = [
+const PLOTS: [PlotOf; 16] = [
     PlotOf { name: "stability map", lines: &[Published, Coupled, Exact], marks: &[Ghost] },
     // The exact boundary of another device, while that of this one is computed.
     PlotOf { name: "stability map before", lines: &[Published, Coupled, Ghost], marks: &[Ghost] },
@@ -99,8 +99,14 @@ const PLOTS: [PlotOf; 14] = [
         lines: &[Linear, Stable, Unstable, Ghost],
         marks: &[FromRest, Up, Down, Beyond, Measured],
     },
+    PlotOf { name: "tolerances", lines: &[Numeric, Linear], marks: &[] },
+    PlotOf { name: "store", lines: &[Stable, Linear, Best], marks: &[] },
     PlotOf { name: "load", lines: &[Linear, Stable, Unstable, Theory, Best], marks: &[Up, Beyond] },
-    PlotOf { name: "measured over frequency", lines: &[Linear, Stable], marks: &[FromRest, Measured] },
+    PlotOf {
+        name: "measured over frequency",
+        lines: &[Linear, Stable, Best, Ghost],
+        marks: &[FromRest, Measured],
+    },
     PlotOf { name: "spectrum", lines: &[Numeric], marks: &[] },
     PlotOf { name: "roles", lines: &[Numeric, Theory, Published, Coupled, Ghost], marks: &[Poincare] },
 ];
