@@ -158,6 +158,51 @@ mod tests {
         }
     }
 
+    /// A finger that comes down and goes along these places, one a picture.
+    fn swipe(desk: &mut Desk, path: &[egui::Pos2]) {
+        use egui::{Event, Modifiers, PointerButton, TouchDeviceId, TouchId, TouchPhase};
+        let touch = |phase, pos| Event::Touch {
+            device_id: TouchDeviceId(0),
+            id: TouchId::from(1_u64),
+            phase,
+            pos,
+            force: None,
+        };
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        let press = |pos, pressed| Event::PointerButton { pos, button, pressed, modifiers };
+        let (first, last) = (path[0], path[path.len() - 1]);
+        let mut pictures = vec![vec![press(first, true), touch(TouchPhase::Start, first)]];
+        pictures
+            .extend(path[1..].iter().map(|at| vec![Event::PointerMoved(*at), touch(TouchPhase::Move, *at)]));
+        pictures.push(vec![press(last, false), Event::PointerGone, touch(TouchPhase::End, last)]);
+        for mut events in pictures {
+            desk.app.sift(&desk.harness.context, &mut events);
+            desk.harness.frame(events, |ui| desk.app.ui(ui));
+        }
+        desk.work(2);
+    }
+
+    #[test]
+    fn a_swipe_up_over_a_slider_or_the_plot_scrolls_and_changes_nothing() {
+        let mut desk = Desk::new(360.0, 760.0, r#"{"scenario":{"t_end":100}}"#);
+        desk.work(3);
+        let before = desk.app.view.clone();
+        for label in ["Frequency", "Damping"] {
+            let slider = desk.harness.find(egui::Role::Slider, label).bounds;
+            let from = slider.left_center() + egui::vec2(0.7 * slider.width(), 0.0);
+            let path: Vec<_> = (0..12).map(|i| from - egui::vec2(0.0, 4.0 * i as f32)).collect();
+            swipe(&mut desk, &path);
+            let moved = desk.harness.find(egui::Role::Slider, label).bounds.top() - slider.top();
+            assert_eq!(desk.app.view, before, "{label}");
+            assert!((moved + 44.0).abs() < 2.0, "{label}: {moved}");
+        }
+        let slider = desk.harness.find(egui::Role::Slider, "Frequency").bounds;
+        let path: Vec<_> = (0..12).map(|i| egui::pos2(300.0, 200.0 + 5.0 * i as f32)).collect();
+        swipe(&mut desk, &path);
+        let moved = desk.harness.find(egui::Role::Slider, "Frequency").bounds.top() - slider.top();
+        assert!(desk.app.view == before && (moved - 55.0).abs() < 2.0, "{moved}");
+    }
+
     #[test]
     fn tabs_stay_in_sight_in_the_first_picture_of_a_narrower_page() {
         for (wide, narrow) in [(1440.0, 1000.0), (1440.0, 360.0), (768.0, 360.0)] {

@@ -1,7 +1,7 @@
 //! What the browser tells of the screen and of who looks at it.
 
-use wasm_bindgen::JsCast as _;
 use wasm_bindgen::prelude::Closure;
+use wasm_bindgen::{JsCast as _, JsValue};
 use web_sys::MediaQueryList;
 
 /// What asks for high contrast: a setting of the system, or colours that the browser forces upon pages.
@@ -37,4 +37,20 @@ impl Contrast {
     pub(super) fn is_wished(&self) -> bool {
         self.0.as_ref().is_some_and(|query| query.matches())
     }
+}
+
+/// Tells the page of every finger before eframe does: it takes a finger's press for a mouse's first, and draws at once.
+pub(super) fn watch_fingers(context: &egui::Context) {
+    let Some(window) = web_sys::window() else { return };
+    let context = context.clone();
+    let listener = Closure::<dyn FnMut(JsValue)>::new(move |event: JsValue| {
+        let kind = js_sys::Reflect::get(&event, &JsValue::from_str("pointerType")).ok();
+        if kind.and_then(|kind| kind.as_string()).as_deref() == Some("touch") {
+            crate::app::widgets::touch::expect_fingers(&context);
+        }
+    });
+    let function = listener.as_ref().unchecked_ref();
+    // Where the browser refuses, the first finger of all counts as a mouse.
+    let _ = window.add_event_listener_with_callback_and_bool("pointerdown", function, true);
+    listener.forget();
 }

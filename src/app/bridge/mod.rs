@@ -157,6 +157,7 @@ impl Page {
         app.embed(&search);
         let contrast = around::Contrast::watch(context);
         app.set_system_contrast(contrast.is_wished());
+        around::watch_fingers(context);
         if around::has_coarse_pointer() {
             crate::app::widgets::touch::expect_fingers(context);
         }
