@@ -22,6 +22,7 @@ fn smallest(task: &str) -> Map<String, Value> {
         "simulate" => json!({"t_end": 1}),
         "basin" => json!({"count": 2}),
         "load" => json!({"from": 1e6, "to": 1e7, "per_decade": 1}),
+        "fit" => json!({"data": [[2.7, 1.0], [2.8, 2.0], [2.9, 1.5]]}),
         "find" => json!({"variables": [{"name": "resistance", "from": 1e6, "to": 1e7}], "generations": 1}),
         "map" => json!({
             "x": {"name": "frequency", "from": 8, "to": 9, "count": 2},
