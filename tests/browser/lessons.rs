@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use crate::drag_slider;
 use crate::page::{Control, Page, Theme};
+use crate::share::drop_file;
 
 const CONTROL: char = '\u{e009}';
 
@@ -101,5 +102,62 @@ fn a_link_to_a_lesson_opens_its_step_also_on_a_phone() {
     press(&mut page, "Leave the lesson");
     page.wait_until("no lesson", |state| place(state) == (None, 1));
     assert_eq!(page.state()["view"]["tab"], "stability");
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn back_and_forward_walk_through_tabs_figures_and_lessons() {
+    let mut page = Page::open(1440, 900, Theme::Light);
+    let tab = |state: &Value| state["view"]["tab"].as_str().unwrap_or_default().to_owned();
+    press(&mut page, "Sweep");
+    page.wait_until("Sweep", |state| tab(state) == "sweep");
+    press(&mut page, "Paper");
+    page.wait_until("Paper", |state| tab(state) == "paper");
+    let figure = page.find("Figure: 4", &[]);
+    page.click(figure.at(0.5, 0.5));
+    page.wait_until("Figure 4", |state| state["view"]["figure"] == 4);
+    press(&mut page, "Lessons");
+    press(&mut page, "Begin: The first tongue");
+    wait_for_step(&mut page, "first-tongue", 1);
+    // A presenter's clicker.
+    page.keys(&[], '\u{e00f}');
+    wait_for_step(&mut page, "first-tongue", 2);
+    page.keys(&[], '\u{e00e}');
+    wait_for_step(&mut page, "first-tongue", 1);
+    for expected in ["first-tongue 2", "first-tongue 1", "lessons", "paper 4", "paper 9", "sweep", "explore"]
+    {
+        page.script("history.back()");
+        page.wait_until(expected, |state| {
+            let (lesson, step) = place(state);
+            let figure = state["view"]["figure"].as_u64().unwrap_or_default();
+            match lesson {
+                Some(name) => expected == format!("{name} {step}"),
+                None if tab(state) == "paper" => expected == format!("paper {figure}"),
+                None => expected == tab(state),
+            }
+        });
+    }
+    page.script("history.forward()");
+    page.wait_until("forward", |state| tab(state) == "sweep");
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn a_lesson_of_ones_own_is_dropped_on_the_page_and_a_broken_one_is_explained() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    let lesson = r#"{"title":"Mine","summary":"My own.","minutes":1,"steps":[
+        {"text":"We **begin**.","view":"v=1&omega=9&force=exact","goal":{"task":"Go to 10.",
+         "conditions":[{"at":"/view/scenario/parameters/omega","is":10}],"show":"v=1&omega=10&force=exact",
+         "reaction":"There."}}]}"#;
+    drop_file(&page, "mine.json", &lesson.replace("omega=9", "omeag=9"));
+    page.find("mine.json could not be opened: steps 1, view: omeag = 9", &["Label"]);
+    drop_file(&page, "mine.json", lesson);
+    wait_for_step(&mut page, "own", 1);
+    page.find("Mine", &["Label"]);
+    press(&mut page, "Show me");
+    page.find("✓ Done", &["Label"]);
+    page.screenshot("lesson-own");
     page.close();
 }

@@ -19,10 +19,23 @@ fn open_tab(page: &mut Page, tab: &str) {
 
 /// Sliders that are in sight whole, below the plot that stays on top.
 fn sliders(page: &Page, height: f64) -> Vec<Control> {
-    let controls = page.controls();
+    // The page makes the list when it is asked for, and has it a picture later.
+    let asked = (0..100).map(|_| {
+        sleep(Duration::from_millis(20));
+        page.controls()
+    });
+    let controls = asked.into_iter().find(|controls| !controls.is_empty()).unwrap_or_default();
     let plot = controls.iter().find(|control| control.label.starts_with("Export: "));
-    let top = plot.map_or(0.0, |plot| plot.bounds[3] + 60.0);
     let guide = controls.iter().find(|control| control.label == "Leave the lesson");
+    // Height of the plot beneath its title, more or less.
+    let high = if height < 500.0 {
+        90.0
+    } else if guide.is_some() {
+        150.0
+    } else {
+        290.0
+    };
+    let top = plot.map_or(0.0, |plot| plot.bounds[3] + high);
     let bottom = guide.map_or(height, |guide| guide.bounds[1]);
     let seen =
         |control: &Control| control.role == "Slider" && control.bounds[1] > top && control.bounds[3] < bottom;

@@ -22,7 +22,7 @@ fn press(page: &mut Page, label: &str) {
 }
 
 /// Drops a file on the page.
-fn drop_file(page: &Page, name: &str, text: &str) {
+pub(crate) fn drop_file(page: &Page, name: &str, text: &str) {
     let script = "const files = new DataTransfer(); files.items.add(new File([arguments[1]], arguments[0])); \
         const drop = new DragEvent('drop', { dataTransfer: files, bubbles: true, cancelable: true }); \
         document.getElementById('canvas').dispatchEvent(drop);";
