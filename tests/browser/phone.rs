@@ -118,7 +118,7 @@ fn a_vertical_swipe_over_any_slider_scrolls_and_changes_no_value() {
         let state = page.state()["view"].clone();
         let mut swiped = BTreeSet::new();
         // Down to the end of the page, slider by slider, and a swipe beside them where all in sight are done.
-        for _ in 0..60 {
+        for _ in 0..100 {
             let seen = sliders(&page, 750.0);
             let before: Vec<_> = seen.iter().map(|slider| (slider.label.clone(), slider.bounds[1])).collect();
             let next = seen.into_iter().find(|slider| !swiped.contains(&slider.label));
@@ -126,7 +126,8 @@ fn a_vertical_swipe_over_any_slider_scrolls_and_changes_no_value() {
             if let Some(next) = &next {
                 swiped.insert(next.label.clone());
             }
-            page.swipe(from, (from.0 + 4.0, from.1 - 100.0));
+            // Less than from slider to slider, so that none leaves unswiped.
+            page.swipe(from, (from.0 + 4.0, from.1 - 60.0));
             sleep(Duration::from_millis(60));
             assert_eq!(page.state()["view"], state, "{tab}: {next:?}");
             let after: Vec<_> =

@@ -249,8 +249,21 @@ fn every_example_of_the_readme_has_an_answer() {
     let after = |line: &'static str| line.strip_prefix("echo '")?.split_once("' | target/release/harvester");
     let requests: Vec<&str> = readme.lines().filter_map(after).map(|(request, _)| request).collect();
     for task in [
-        "modes", "boundary", "simulate", "orbit", "chart", "sweep", "continue", "curves", "verdict", "basin",
-        "harvest", "find", "shake",
+        "modes",
+        "boundary",
+        "simulate",
+        "orbit",
+        "chart",
+        "sweep",
+        "continue",
+        "curves",
+        "verdict",
+        "basin",
+        "harvest",
+        "find",
+        "shake",
+        "tolerances",
+        "fit",
     ] {
         let asks = |request: &&&str| request.contains(&format!("\"task\":\"{task}\""));
         assert!(requests.iter().any(|request| asks(&request)), "the README has no example of {task}");
@@ -316,6 +329,24 @@ fn every_example_of_the_readme_has_an_answer() {
                 // The local search at the end takes 16 rounds.
                 assert_eq!(generations, asked["generations"].as_u64().map(|count| count + 16));
                 assert_eq!(given["evaluation"]["violation"], 0.0);
+            }
+            Some("shake") => {
+                assert_eq!(
+                    (&given["outcome"], &given["completed"]),
+                    (&"completed".into(), &asked["realisations"])
+                );
+                let (times, volts) = (given["time"].as_array(), given["voltage"].as_array());
+                assert_eq!(times.map(Vec::len), volts.map(Vec::len));
+                assert!(given["gain"].as_f64().is_some_and(|gain| gain > 0.0), "{given}");
+            }
+            Some("tolerances") => {
+                let shares = ["lasting", "safe"].map(|share| given["yield"][share].as_f64().unwrap_or(-1.0));
+                assert!(shares.iter().all(|share| (0.0..=1.0).contains(share)), "{given}");
+            }
+            Some("fit") => {
+                assert_eq!(given["fitted"].as_array().map(Vec::len), asked["free"].as_array().map(Vec::len));
+                let left = ["start", "result"].map(|at| given["left"][at].as_f64().unwrap_or(f64::NAN));
+                assert!(left[1] < left[0], "{given}");
             }
             other => panic!("{other:?}"),
         }

@@ -39,7 +39,10 @@ impl Condition {
         let same = match &self.is {
             None => true,
             Some(Value::Array(allowed)) => allowed.contains(fact),
-            Some(wanted) => wanted == fact,
+            // A whole number is also one with a point.
+            Some(wanted) => {
+                wanted == fact || wanted.as_f64().is_some_and(|number| fact.as_f64() == Some(number))
+            }
         };
         within && same
     }
@@ -57,12 +60,15 @@ pub(super) mod tests {
 
     #[test]
     fn a_condition_is_on_a_number_a_word_or_a_flag_and_what_is_unknown_fulfils_none() {
-        let facts = json!({ "a": { "number": 2.5, "word": "torus", "flag": false, "nothing": null } });
+        let facts =
+            json!({ "a": { "number": 2.5, "whole": 10.0, "word": "torus", "flag": false, "nothing": null } });
         for (condition, expected) in [
             (r#"{"at":"/a/number","from":2.5}"#, true),
             (r#"{"at":"/a/number","from":2.6}"#, false),
             (r#"{"at":"/a/number","from":2,"to":3}"#, true),
             (r#"{"at":"/a/number","to":2.4}"#, false),
+            (r#"{"at":"/a/whole","is":10}"#, true),
+            (r#"{"at":"/a/whole","is":11}"#, false),
             (r#"{"at":"/a/word","from":0}"#, false),
             (r#"{"at":"/a/word","is":"torus"}"#, true),
             (r#"{"at":"/a/word","is":["other","torus"]}"#, true),
