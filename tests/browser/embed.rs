@@ -58,7 +58,7 @@ fn a_frame_shows_what_was_asked_for_and_leaves_the_wheel_to_the_page_around() {
     page.call("load", r#"{"parameters":{"alpha":0.002}}"#).expect("a valid scenario");
     page.wait("the state to be stored", |page| {
         let stored = page.script("return localStorage.getItem('harvester-lab.v1')");
-        stored.as_str().is_some_and(|text| text.contains("0.002")).then_some(())
+        stored.as_str().is_some_and(|text| text.contains("\"alpha\":0.002,")).then_some(())
     });
     let stored = page.script("return localStorage.getItem('harvester-lab.v1')");
     let query = "?embed=map,phase&controls=omega#v=1&alpha=1e-4&beta=0.01&omega=8.0969&map=first";

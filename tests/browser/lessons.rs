@@ -71,9 +71,9 @@ fn a_lesson_is_played_to_its_end_and_remembered() {
     wait_for_step(&mut page, "first-tongue", 4);
     press(&mut page, "Finish");
     page.wait_until("the list", |state| place(state) == (None, 1) && state["view"]["tab"] == "lessons");
-    page.find("1 of 11 done", &["Status"]);
+    page.find("1 of 13 done", &["Status"]);
     page.reload();
-    page.find("1 of 11 done", &["Status"]);
+    page.find("1 of 13 done", &["Status"]);
     let names: Vec<_> = page.files.log()[loaded..].iter().map(|served| served.path.clone()).collect();
     assert!(!names.iter().any(|path| path.contains("lesson")), "lessons were loaded: {names:?}");
     page.close();

@@ -17,14 +17,18 @@ fn open_tab(page: &mut Page, tab: &str) {
     sleep(Duration::from_millis(150));
 }
 
-/// Sliders that are in sight whole, below the plot that stays on top.
-fn sliders(page: &Page, height: f64) -> Vec<Control> {
-    // The page makes the list when it is asked for, and has it a picture later.
-    let asked = (0..100).map(|_| {
+/// What can be touched. The page makes the list when it is asked for, and has it a picture later.
+fn controls(page: &Page) -> Vec<Control> {
+    let mut asked = (0..100).map(|_| {
         sleep(Duration::from_millis(20));
         page.controls()
     });
-    let controls = asked.into_iter().find(|controls| !controls.is_empty()).unwrap_or_default();
+    asked.find(|controls| !controls.is_empty()).unwrap_or_default()
+}
+
+/// Sliders that are in sight whole, below the plot that stays on top.
+fn sliders(page: &Page, height: f64) -> Vec<Control> {
+    let controls = controls(page);
     let plot = controls.iter().find(|control| control.label.starts_with("Export: "));
     let guide = controls.iter().find(|control| control.label == "Leave the lesson");
     // Height of the plot beneath its title, more or less.
@@ -45,7 +49,7 @@ fn sliders(page: &Page, height: f64) -> Vec<Control> {
 /// That a slider can be dragged while the plot above it is in sight.
 fn drags_under_its_plot(page: &mut Page, place: &str, height: f64) {
     let found = page.wait(&format!("a slider under a plot: {place}"), |page| {
-        let plot = page.controls().into_iter().find(|control| control.label.starts_with("Export: "))?;
+        let plot = controls(page).into_iter().find(|control| control.label.starts_with("Export: "))?;
         Some((plot, sliders(page, height).into_iter().next()?))
     });
     let (plot, slider) = found;
@@ -55,7 +59,7 @@ fn drags_under_its_plot(page: &mut Page, place: &str, height: f64) {
     let mut moved = false;
     for (from, to) in [(0.35, 0.65), (0.65, 0.3)] {
         page.swipe(slider.at(from, 0.5), slider.at(to, 0.5));
-        let controls = page.wait("controls", |page| Some(page.controls()).filter(|all| !all.is_empty()));
+        let controls = controls(page);
         let is_plot = |control: &Control| control.label.starts_with("Export: ") && control.bounds[1] > 0.0;
         assert!(controls.iter().any(is_plot), "{place}: the plot has gone");
         let same = |control: &&Control| control.role == "Slider" && control.label == slider.label;
@@ -121,7 +125,9 @@ fn a_vertical_swipe_over_any_slider_scrolls_and_changes_no_value() {
         for _ in 0..100 {
             let seen = sliders(&page, 750.0);
             let before: Vec<_> = seen.iter().map(|slider| (slider.label.clone(), slider.bounds[1])).collect();
-            let next = seen.into_iter().find(|slider| !swiped.contains(&slider.label));
+            // The highest first, which is the next to leave.
+            let left = seen.into_iter().filter(|slider| !swiped.contains(&slider.label));
+            let next = left.min_by(|a, b| a.bounds[1].total_cmp(&b.bounds[1]));
             let from = next.as_ref().map_or((350.0, 740.0), |slider| slider.at(0.7, 0.5));
             if let Some(next) = &next {
                 swiped.insert(next.label.clone());

@@ -13,6 +13,8 @@ use crate::app::widgets::{Icon, icon_button, qr_code};
 use crate::app::{fonts, link, theme};
 use crate::export::snippet;
 
+/// Part of the page's height that the list of parts for a frame may take.
+const PARTS: f32 = 0.3;
 /// Width of the popover, and the side of its code.
 const WIDTH: f32 = 300.0;
 const CODE: f32 = 216.0;
@@ -152,13 +154,17 @@ fn choose_parts(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory, mut cho
     let mark = ui.spacing().icon_width + ui.spacing().icon_spacing;
     let width = widest.fold(0.0, f32::max) + mark + ui.spacing().item_spacing.x;
     let count = if 2.0 * width <= ui.available_width() { 2 } else { 1 };
-    ui.columns(count, |columns| {
-        for (i, (_, _, name)) in parts.iter().enumerate() {
-            let mut shown = chosen >> i & 1 == 1;
-            if columns[i * count / parts.len()].checkbox(&mut shown, tr(name)).changed() {
-                chosen ^= 1 << i;
+    // There are more than fit a low page with what stands around them.
+    let room = PARTS * ui.ctx().content_rect().height();
+    egui::ScrollArea::vertical().id_salt("parts").max_height(room).show(ui, |ui| {
+        ui.columns(count, |columns| {
+            for (i, (_, _, name)) in parts.iter().enumerate() {
+                let mut shown = chosen >> i & 1 == 1;
+                if columns[i * count / parts.len()].checkbox(&mut shown, tr(name)).changed() {
+                    chosen ^= 1 << i;
+                }
             }
-        }
+        });
     });
     memory.parts = Some(chosen);
     ui.checkbox(&mut memory.bare, tr("without sliders"));

@@ -218,7 +218,7 @@ impl<'a> BeamView<'a> {
             }
         }
         let font = fonts::regular(theme::size::SMALL);
-        let middle = (0.5 * (from + to)).clamp(rect.top() + 18.0, rect.bottom() - 18.0);
+        let middle = (0.5 * (from + to)).max(rect.top() + 18.0).min(rect.bottom() - 18.0);
         painter.text(
             pos2(x + 7.0, middle - 1.0),
             Align2::LEFT_BOTTOM,

@@ -30,7 +30,9 @@ pub fn operating_point<R>(ui: &Ui, plot: &PlotResponse<R>, name: &str, position:
     let frame = *transform.frame();
     let centre = transform.position_from_point(&PlotPoint::new(position[0], position[1]));
     // A point outside of the view waits at its edge, so that it can be fetched back.
-    let shown = frame.shrink(RADIUS).clamp(centre);
+    let room = frame.shrink(RADIUS);
+    // A plot may be smaller than the marker, for a moment or in a small frame.
+    let shown = if room.is_negative() { frame.center() } else { room.clamp(centre) };
     let id = plot.response.id.with("operating point");
     let area = Rect::from_center_size(shown, Vec2::splat(2.0 * GRAB));
     touch::grip(ui, area);
@@ -44,7 +46,7 @@ pub fn operating_point<R>(ui: &Ui, plot: &PlotResponse<R>, name: &str, position:
         response.request_focus();
     }
     let stepped = keyboard(ui, &response, frame).map(|step| shown + step);
-    let target = dragged.or(fetched).or(stepped).map(|at| frame.clamp(at));
+    let target = dragged.or(fetched).or(stepped).filter(|_| !frame.is_negative()).map(|at| frame.clamp(at));
     let moved = target.map(|at| transform.value_from_position(at)).map(|point| [point.x, point.y]);
     let hot = response.hovered() || response.dragged() || response.has_focus();
     paint(ui, frame, target.unwrap_or(shown), hot);
