@@ -3,7 +3,7 @@
 //! The motion is followed from its start. Now and then Newton's iteration on the stroboscopic map looks for a cycle near
 //! the state reached; it counts as reached when it is stable and the run moves towards it as the map's derivative says.
 //! The numbers are then those of the cycle itself, however long the rest of the transient takes. Where no cycle of up to
-//! [`LONGEST`] periods is found, means over two halves of a record that agree are the answer, and otherwise there is none.
+//! `LONGEST` periods is found, means over two halves of a record that agree are the answer, and otherwise there is none.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
