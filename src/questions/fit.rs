@@ -413,7 +413,9 @@ impl Study for FitStudy {
                 let mut place = here;
                 place[index] += DIFFERENCE;
                 Some(Order::new(self.piece(&place), move |study: &mut Self, found| {
-                    study.take(found, |study, curve| study.take_column(index, curve));
+                    // At the edge of what a device may be there is no device beyond: nothing is known of that unknown there.
+                    let curve = found.ok().or_else(|| study.curve.clone()).unwrap_or_default();
+                    study.take_column(index, curve);
                 }))
             }
             Phase::Trial { handed, place, .. } if !*handed => {
