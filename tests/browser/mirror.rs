@@ -51,7 +51,7 @@ fn native_controls_drive_the_plots_and_follow_them() {
     let state = page.wait_until("another motion", |state| {
         state["generation"] != before && state["shown_generation"] == state["generation"]
     });
-    assert_eq!(state["result"]["scenario"]["parameters"]["omega"], 8.2);
+    assert_eq!(state["result"]["scenario"]["parameters"]["omega"], 8.3);
     assert_eq!(number(&mut page, "Frequency"), 8.2);
     page.wait("another verdict in words", |page| (spoken(page) != verdict).then_some(()));
     page.screenshot("mirror");
@@ -97,12 +97,12 @@ fn native_controls_drive_the_plots_and_follow_them() {
 fn listeners_are_told_of_changes() {
     let mut page = Page::open(1440, 900, Theme::Dark);
     page.script("addEventListener('harvester:change', ({ detail }) => { window.heard = detail.state; })");
-    page.script("harvester.change('omega', '8.2')");
+    page.script("harvester.change('omega', '8.3')");
     let heard = page.wait("the event", |page| {
         let text = page.script("return window.heard ?? null");
         text.as_str().and_then(|text| serde_json::from_str::<Value>(text).ok())
     });
-    assert_eq!(heard["view"]["scenario"]["parameters"]["omega"], 8.2);
+    assert_eq!(heard["view"]["scenario"]["parameters"]["omega"], 8.3);
     page.close();
 }
 
