@@ -126,7 +126,8 @@ impl Shake {
 
     /// What the runs found so far say; `None` before the first is there.
     pub fn summary(&self, runs: &[&Found]) -> Option<ShakeAnswer> {
-        let (own, linear): (Vec<&Found>, Vec<&Found>) = runs.iter().copied().partition(|run| run.magnets);
+        let (own, mut linear): (Vec<&Found>, Vec<&Found>) = runs.iter().copied().partition(|run| run.magnets);
+        linear.retain(|run| run.completed);
         let first = own.iter().min_by_key(|run| run.realisation)?;
         let ended = own.iter().find(|run| !run.completed).unwrap_or(first);
         let completed: Vec<&Found> = own.iter().copied().filter(|run| run.completed).collect();
@@ -137,7 +138,6 @@ impl Shake {
             .filter_map(|run| {
                 Some((*run, *linear.iter().find(|other| other.realisation == run.realisation)?))
             })
-            .filter(|(_, linear)| linear.completed)
             .collect();
         let ratio = gain(&pairs, stationary);
         let count = own.len() as f64;
