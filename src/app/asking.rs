@@ -1,5 +1,6 @@
 //! What the page in view asks the crew: one lane a topic, the newest question of each.
 
+use super::bench::Bench;
 use super::crew::Studies;
 use super::embed::Embed;
 use super::panels::spec::{Asking, Place};
@@ -11,7 +12,13 @@ use crate::questions::inspection::Inspect;
 use crate::questions::tongues::TongueStudy;
 
 /// Asks for what the view shows, or the frame that holds the page.
-pub(super) fn ask(studies: &mut Studies, view: &View, session: &Session, embed: Option<&Embed>) {
+pub(super) fn ask(
+    studies: &mut Studies,
+    view: &View,
+    session: &Session,
+    bench: &Bench,
+    embed: Option<&Embed>,
+) {
     let designs = embed.is_none() && view.tab == Tab::Design;
     if designs {
         design::ask(studies, view);
@@ -32,6 +39,6 @@ pub(super) fn ask(studies: &mut Studies, view: &View, session: &Session, embed: 
         if matches!(panel.place, Place::Page(_)) {
             studies.deliver(&view.scenario);
         }
-        (panel.ask)(&mut Asking { view, session, studies });
+        (panel.ask)(&mut Asking { view, session, bench, studies });
     }
 }

@@ -35,8 +35,10 @@ impl App {
                 let begun = self.crew.borrow_mut().studies.search(question, &self.view);
                 self.bench.refusal = begun.err();
             }
-            Command::Measure(Some(reading)) => self.bench.measured.read(reading),
-            Command::Measure(None) => self.bench.measured = bench::measured::Measured::default(),
+            Command::Measure(wanted, Some(reading)) => self.bench.file_of(wanted).read(reading),
+            Command::Measure(wanted, None) => {
+                *self.bench.file_of(wanted) = bench::measured::Measured::of(wanted);
+            }
             Command::Fit => {
                 let asked =
                     self.bench.measured.file.as_ref().map(|file| bench::measured::fit(file, &self.view));
@@ -45,6 +47,11 @@ impl App {
             Command::MeasureRun => {
                 if let Some(shown) = &self.session.shown {
                     self.bench.measured.open("run.csv", bench::measured::record(shown).into_bytes());
+                }
+            }
+            Command::RecordNoise => {
+                if let Some(text) = bench::recorded::noise(&self.view) {
+                    self.bench.vibration.open("noise.csv", text.into_bytes());
                 }
             }
             Command::LoadFigure(number) => self.load_figure(number),

@@ -10,6 +10,7 @@ use crate::app::text::Language;
 use crate::export::Format;
 use crate::model::Parameter;
 use crate::questions::chart::Quantity;
+use crate::questions::design::measured::Kind;
 use crate::scenario::Scenario;
 use crate::sentence::Sentence;
 
@@ -40,12 +41,14 @@ pub(super) enum Command {
     Lesson(Action),
     /// Begin the search for a design, or end it.
     Find(bool),
-    /// Read the file's columns so, or close it.
-    Measure(Option<Reading>),
+    /// Read the columns of the file with this quantity so, or close it.
+    Measure(Kind, Option<Reading>),
     /// Begins to fit the device in view to the measured data.
     Fit,
     /// Take the end of the run in view as if it were a file of measured data.
     MeasureRun,
+    /// Take the noise in view as if it were a recording.
+    RecordNoise,
     /// Load a figure of the paper.
     LoadFigure(u8),
     /// Fill the page with a panel, or show all of them again.

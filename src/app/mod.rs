@@ -81,6 +81,7 @@ use moment::Moment;
 use panels::Context;
 use session::{Session, Status};
 use speech::Speech;
+use view::shake::ShakenBy;
 use view::{Tab, View};
 
 use crate::export::Format;
@@ -161,6 +162,10 @@ impl App {
         if self.bench.measured.work() {
             context.request_repaint();
         }
+        if self.bench.vibration.work() {
+            self.shake_by_recording();
+            context.request_repaint();
+        }
         if self.view.tab == Tab::Paper {
             let figure = figures::figure(self.view.figure);
             if self.session.compare(figure, &self.view.scenario) {
@@ -172,10 +177,18 @@ impl App {
         }
     }
 
+    /// Has the view name the recording that was just read.
+    fn shake_by_recording(&mut self) {
+        let file = self.bench.vibration.file.as_ref();
+        let Some(recorded) = file.and_then(|file| file.recorded.as_ref()) else { return };
+        let shake = &mut self.view.design.shake;
+        (shake.by, shake.recording) = (ShakenBy::Recorded, Some(recorded.recording.clone()));
+    }
+
     /// Asks the crew for what the page shows beside the run, and lets it go on.
     fn study(&mut self, context: &egui::Context) {
         let mut crew = self.crew.borrow_mut();
-        asking::ask(&mut crew.studies, &self.view, &self.session, self.embed.as_ref());
+        asking::ask(&mut crew.studies, &self.view, &self.session, &self.bench, self.embed.as_ref());
         crew.tick(context.input(|input| input.pointer.any_down()));
         if crew.works_on_this_thread() && crew.is_busy() {
             context.request_repaint();
@@ -195,7 +208,7 @@ impl App {
     /// Gives the crew what the view asks for now, without waiting for the next frame.
     fn follow(&mut self) {
         let mut crew = self.crew.borrow_mut();
-        asking::ask(&mut crew.studies, &self.view, &self.session, self.embed.as_ref());
+        asking::ask(&mut crew.studies, &self.view, &self.session, &self.bench, self.embed.as_ref());
         crew.hand_out();
     }
 
@@ -285,6 +298,9 @@ impl App {
             }
             None => self.view.tab == Tab::Live,
         };
+        if in_sight {
+            self.live.shake(bench::shaking::live(&self.view, &self.bench), &self.view.scenario);
+        }
         if self.live.frame(context.input(|input| input.time), &self.view, in_sight) {
             context.request_repaint();
         }

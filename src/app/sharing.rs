@@ -1,26 +1,33 @@
 //! Links and scenario files: what goes out of the page, and what comes in.
 
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::App;
+use super::bench::recorded::Recorded;
+use super::bench::shaking::recorded;
 use super::command::Command;
 use super::errand::Errand;
 use super::history::Hand;
 use super::lessons::check::checked;
 use super::lessons::{LessonId, course};
 use super::link;
+use super::panels::spec::Place;
 use super::view::design::Page;
+use super::view::shake::ShakenBy;
 use super::view::{Tab, View};
 use crate::app::text::fill;
 use crate::questions::design::measured;
-use crate::questions::input::{self, NoText};
+use crate::questions::input::{self, FieldError, NoText};
 use crate::scenario::Scenario;
 use crate::sentence::{Sentence, said};
 
 /// Name of saved files.
 const FILE_NAME: &str = "harvester-scenario.json";
-/// A file larger than this is no scenario.
-const LARGEST_FILE: usize = 1 << 20;
+/// A file larger than this is no scenario; a recording of half a million samples fits.
+const LARGEST_FILE: usize = 40_000_000;
+/// Where a scenario's file has the recording that shakes its base.
+const RECORDING: &str = "recording";
 /// What belongs to the room and the eyes, and not into a file.
 const LOOKS: [&str; 5] = ["lang", "dark", "contrast", "projector", "beam_moves"];
 
@@ -42,6 +49,26 @@ pub fn look(name: &str, first: &[u8], size: usize) -> Result<(), Sentence> {
 fn is_scenario(name: &str, contents: &[u8]) -> bool {
     let first = contents.trim_ascii_start().first();
     name.to_ascii_lowercase().ends_with(".json") || matches!(first, Some(b'{'))
+}
+
+/// A recording in a scenario's file.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RecordingFile {
+    name: String,
+    /// Times (s) and accelerations (g).
+    time: Vec<f64>,
+    acceleration: Vec<f64>,
+}
+
+/// The text of a scenario without the recording in it, and that.
+fn recording_apart(text: String) -> Result<(String, Option<RecordingFile>), FieldError> {
+    let value = serde_json::from_str::<Value>(&text).ok();
+    let Some(Value::Object(mut entries)) = value.filter(|value| value.get(RECORDING).is_some()) else {
+        return Ok((text, None));
+    };
+    let recording = entries.remove(RECORDING).map(|value| input::fields(&value)).transpose()?;
+    Ok((Value::Object(entries).to_string(), recording))
 }
 
 /// The text of a file that may hold a scenario.
@@ -136,10 +163,17 @@ impl App {
         if steps.is_some() {
             return self.open_lesson(name, &text);
         }
+        let (text, recording) = match recording_apart(text) {
+            Ok(parts) => parts,
+            Err(reason) => return self.tell_unopened(name, &reason.into()),
+        };
         match View::read(&text, &self.view).map(|view| view.with_looks_of(&self.view)) {
             Ok(view) => {
                 self.notice = None;
                 self.replace(view, false);
+                if let Some(RecordingFile { name, time, acceleration }) = recording {
+                    self.bench.vibration.open(&name, Recorded::text(&time, &acceleration).into_bytes());
+                }
             }
             Err(reason) => self.tell_unopened(name, &reason),
         }
@@ -169,6 +203,11 @@ impl App {
 
     fn import(&mut self, name: &str, text: Vec<u8>) {
         self.notice = None;
+        // Where a recording is asked for, a file is one.
+        let asked = Place::of(&self.view) == Place::Page(Page::Shake) || self.view.shaken().is_some();
+        if asked && self.view.design.shake.by == ShakenBy::Recorded {
+            return self.bench.vibration.open(name, text);
+        }
         let mut view = View { tab: Tab::Design, enlarged: None, ..self.view.clone() };
         view.design.page = Page::Measured;
         self.replace(view, false);
@@ -179,6 +218,13 @@ impl App {
         let mut value = self.view.to_value();
         if let Some(entries) = value.as_object_mut() {
             entries.retain(|name, _| !LOOKS.contains(&name.as_str()));
+            let shaken = self.view.design.shake.by == ShakenBy::Recorded;
+            if let Some(recorded) = recorded(&self.view, &self.bench).filter(|_| shaken) {
+                let (time, acceleration) = (recorded.time.to_vec(), recorded.acceleration.to_vec());
+                let name = recorded.recording.name.clone();
+                let file = RecordingFile { name, time, acceleration };
+                entries.extend(serde_json::to_value(file).map(|value| (RECORDING.to_owned(), value)));
+            }
         }
         self.errands.push(Errand::Save(FILE_NAME.to_owned(), "application/json", format!("{value:#}\n")));
     }
@@ -266,6 +312,41 @@ mod tests {
         assert_eq!(app.view.dark, Some(true));
         do_it(&mut app, Command::Undo);
         assert_eq!(app.view.figure, 9);
+    }
+
+    #[test]
+    fn a_recording_shakes_what_is_in_view_and_travels_in_a_file() {
+        let mut app = app();
+        app.view.design.shake.everywhere = true;
+        app.view.design.shake.by = ShakenBy::Recorded;
+        let rows = (0..800).map(|i| (0.01 * f64::from(i), (0.07 * f64::from(i * i % 91)).sin()));
+        let text: String = rows.map(|(t, a)| format!("{t};{a}\n")).collect();
+        app.open_file("pump.csv", Ok(format!("time [s];acc [m/s2]\n{text}").into_bytes()));
+        assert_eq!((app.notice.as_deref(), app.view.tab), (None, Tab::Explore));
+        app.logic(&egui::Context::default());
+        let recording = app.view.design.shake.recording.clone().expect("a recording");
+        assert_eq!(recording.name, "pump.csv");
+        // A link names it, and knows it by its numbers.
+        let link = app.fragment();
+        assert!(link.contains("design.shake.recording.name=pump.csv"), "{link}");
+        do_it(&mut app, Command::SaveFile);
+        let errands = app.take_errands();
+        let [Errand::Save(_, _, saved)] = errands.as_slice() else { panic!("{errands:?}") };
+        let brought = |app: &App| recorded(&app.view, &app.bench).map(|found| found.acceleration.to_vec());
+        let before = brought(&app).expect("brought");
+        let mut other = super::tests::app();
+        other.open_link(&link);
+        assert_eq!((other.notice.as_deref(), brought(&other)), (None, None));
+        other.open_file("saved.json", Ok(saved.clone().into_bytes()));
+        assert_eq!(other.notice, None);
+        other.logic(&egui::Context::default());
+        let after = brought(&other).expect("brought along");
+        assert_eq!((&other.view.design.shake, after.len()), (&app.view.design.shake, before.len()));
+        let off = before.iter().zip(&after).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-15, "{off}");
+        let broken = saved.replace("\"acceleration\": [", "\"acceleration\": [true, ");
+        other.open_file("broken.json", Ok(broken.into_bytes()));
+        assert!(other.notice.is_some_and(|notice| notice.contains("acceleration")));
     }
 
     #[test]

@@ -17,6 +17,7 @@ use self::live::LiveView;
 pub use self::panel::Panel;
 pub(in crate::app) use self::panel::panels;
 use self::salvage::salvage;
+use self::shake::{Recording, ShakenBy};
 pub use self::sweep::{Output, SweepView};
 use super::figures;
 use super::lessons::{LessonId, STEPS};
@@ -172,6 +173,7 @@ impl View {
         view.scenario.scaling = ElectricalScaling::Consistent;
         view.scenario.model.residual_moment = true;
         view.design.search.third = Some(Side::of(Dimension::TipMass));
+        view.design.shake.recording = Some(Recording { name: "r".to_owned(), checksum: 0 });
         view
     }
 
@@ -189,6 +191,12 @@ impl View {
             return Err(Fault { part: "plane", error: None });
         }
         Ok(())
+    }
+
+    /// What shakes the base of what is in view in place of the sine.
+    pub(in crate::app) fn shaken(&self) -> Option<ShakenBy> {
+        let shake = &self.design.shake;
+        (matches!(self.tab, Tab::Explore | Tab::Live) && shake.everywhere).then_some(shake.by)
     }
 
     /// The same, looking like `other`: what suits the room and the eyes, and belongs to no scenario.

@@ -83,15 +83,6 @@ const UNSTABLE: &str = "unstable_steps";
 /// When the budget ends before the run.
 const UNFINISHED: &str = "unfinished";
 
-/// The word for an outcome.
-fn word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Completed => "completed",
-        Outcome::Escaped { .. } => "escaped",
-        Outcome::Contact { .. } => "contact",
-    }
-}
-
 impl Question for Simulate {
     const TASK: &'static str = "simulate";
     const TAKES: &'static [&'static str] = &["initial"];
@@ -138,7 +129,7 @@ impl Simulate {
         let mut state = Vec::with_capacity(t.len());
         trajectory.read_at(&t, |_, values| state.push(values.to_vec()));
         let t_outcome = trajectory.end_time();
-        let outcome = end.map_or(UNFINISHED, word);
+        let outcome = end.map_or(UNFINISHED, Outcome::word);
         Ok(SimulateAnswer { t, state, outcome, t_outcome, steps: integrator.steps() })
     }
 
@@ -202,11 +193,11 @@ impl Simulate {
         let t_outcome = if completed { self.t_end } else { run.time() };
         let outcome = match end {
             None => UNFINISHED,
-            Some(Outcome::Completed) => word(Outcome::Completed),
+            Some(Outcome::Completed) => Outcome::Completed.word(),
             Some(early) => {
                 let linear = CoupledModes::new(system)?;
                 let grows = |rate: &Complex<f64>| rate.re <= 0.0 && amplification(rate * length) > 1.0 + 1e-9;
-                if linear.eigenvalues().iter().any(grows) { UNSTABLE } else { word(early) }
+                if linear.eigenvalues().iter().any(grows) { UNSTABLE } else { early.word() }
             }
         };
         Ok(SimulateAnswer { t, state, outcome, t_outcome, steps: run.steps() })

@@ -7,7 +7,7 @@ use harvester_lab::dynamics::integration::Shaken;
 use harvester_lab::dynamics::{Outcome, Settings, Trajectory};
 use harvester_lab::model::base_motion::{BaseMotion, Noise, Signal};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem, STANDARD_GRAVITY, Units};
-use harvester_lab::questions::shake::dimensionless;
+use harvester_lab::questions::shaken_run::dimensionless;
 use harvester_lab::questions::solve;
 use harvester_lab::scenario::Scenario;
 use nalgebra::DMatrix;

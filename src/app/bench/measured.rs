@@ -5,18 +5,18 @@ use std::f64::consts::TAU;
 use egui_plot::PlotPoint;
 
 use super::questions::shaking;
+use super::recorded::Recorded;
 use crate::app::clock::milliseconds;
 use crate::app::session::Shown;
 use crate::app::text::say;
 use crate::app::view::View;
 use crate::model::Dimension;
-use crate::questions::design::measured::{
-    Ask, Columns, Import, Kind, Layout, MeasuredError, decode, detect, detect_with,
-};
+use crate::questions::design::measured::{Ask, Columns, Import, Kind, Layout, decode, detect, detect_with};
 use crate::questions::design::record::{Clock, Level, sorted};
 use crate::questions::design::thin::{Thinner, extent};
 use crate::questions::fit::Fit;
 use crate::scenario::{Forgotten, Scenario};
+use crate::sentence::Say;
 
 /// Time that a frame may spend on reading, and rows between looks at the clock.
 const BUDGET_MS: f64 = 6.0;
@@ -87,11 +87,14 @@ pub(in crate::app) struct File {
     pub clock: Clock,
     /// Rows left out, out of the instrument's range.
     pub over_range: usize,
+    /// The accelerations, where they are what is wanted.
+    pub recorded: Option<Recorded>,
 }
 
 /// The file in view, or why there is none.
-#[derive(Default)]
 pub(in crate::app) struct Measured {
+    /// What is looked for in it: voltages, or accelerations.
+    pub wanted: Kind,
     /// The file.
     pub file: Option<File>,
     /// What is wrong with it, or with one that was opened after it.
@@ -101,6 +104,11 @@ pub(in crate::app) struct Measured {
 }
 
 impl Measured {
+    /// No file yet; the quantity `wanted` of the next.
+    pub(in crate::app) fn of(wanted: Kind) -> Self {
+        Self { wanted, file: None, error: None, before: None }
+    }
+
     /// Opens a file and begins to read its first two columns; the file before stays when nothing can be made of it.
     pub(in crate::app) fn open(&mut self, name: &str, text: Vec<u8>) {
         self.error = None;
@@ -108,7 +116,7 @@ impl Measured {
         match detect(&text) {
             Err(error) => self.error = Some(format!("{name}: {}", say(&error))),
             Ok(layout) => {
-                let (reading, ask) = begin(&layout);
+                let (reading, ask) = begin(&layout, self.wanted);
                 self.before = self.file.take().filter(|file| file.measures.is_some()).or(self.before.take());
                 self.file = Some(File {
                     name: name.to_owned(),
@@ -123,6 +131,7 @@ impl Measured {
                     measures: None,
                     clock: Clock::default(),
                     over_range: 0,
+                    recorded: None,
                 });
                 if ask.is_none() {
                     self.read(reading);
@@ -140,7 +149,7 @@ impl Measured {
             // Other columns than before: what they are is looked at anew.
             match detect_with(&file.text, reading.decimal_commas) {
                 Ok(layout) => {
-                    let (begun, ask) = begin(&layout);
+                    let (begun, ask) = begin(&layout, self.wanted);
                     file.layout = layout;
                     file.reading = Reading { decimal_commas: reading.decimal_commas, ..begun };
                     file.ask = ask;
@@ -156,7 +165,7 @@ impl Measured {
             }
         }
         self.error = None;
-        (file.points, file.drawn, file.measures) = (Vec::new(), Vec::new(), None);
+        (file.points, file.drawn, file.measures, file.recorded) = (Vec::new(), Vec::new(), None, None);
         if file.ask.is_some() {
             return;
         }
@@ -177,6 +186,19 @@ impl Measured {
                 Ok(false) => {}
                 Ok(true) => {
                     file.finish();
+                    if self.wanted == Kind::Acceleration {
+                        match Recorded::of(&file.name, &file.points) {
+                            Ok(recorded) => file.recorded = Some(recorded),
+                            // Rows in disorder can be sorted: the file stays in view.
+                            Err(error) if file.clock.is_unsorted() => {
+                                self.error = Some(format!("{}: {}", file.name, say(&error)));
+                            }
+                            Err(error) => {
+                                self.fail(&error);
+                                return true;
+                            }
+                        }
+                    }
                     self.before = None;
                     return true;
                 }
@@ -194,7 +216,7 @@ impl Measured {
         Some(self.file.as_ref()?.import.as_ref()?.progress())
     }
 
-    fn fail(&mut self, error: &MeasuredError) {
+    fn fail(&mut self, error: &dyn Say) {
         if let Some(file) = &mut self.file {
             file.import = None;
             self.error = Some(format!("{}: {}", file.name, say(error)));
@@ -243,8 +265,8 @@ pub(in crate::app) fn fit(file: &File, view: &View) -> (Scenario, Fit) {
 }
 
 /// How a file of this layout is read at first, and what has to be asked before.
-fn begin(layout: &Layout) -> (Reading, Option<Ask>) {
-    let choice = layout.choose(Kind::Voltage);
+fn begin(layout: &Layout, wanted: Kind) -> (Reading, Option<Ask>) {
+    let choice = layout.choose(wanted);
     let domain = if choice.x == Kind::Frequency { Domain::Frequency } else { Domain::Time };
     let chosen = choice.ask.is_none();
     let fitted = [true, false, false, false];
@@ -273,7 +295,7 @@ mod tests {
     fn a_long_file_is_read_in_slices_and_a_bad_line_is_named() {
         let rows = (0..60_000).map(|i| format!("{},{}\n", f64::from(i) * 0.1, (f64::from(i) * 0.01).sin()));
         let text = format!("time [ms],voltage [mV]\n{}", rows.collect::<String>());
-        let mut measured = Measured::default();
+        let mut measured = Measured::of(Kind::Voltage);
         measured.open("run.csv", text.into_bytes());
         let mut slices = 0;
         while measured.work() {
@@ -326,7 +348,7 @@ mod tests {
         measured.read(Reading { sorted: true, ..file.reading });
         while measured.work() {}
         assert_eq!(measured.file.as_ref().map(|file| file.points[1]), Some([1.5, 3.5]));
-        let mut measured = Measured::default();
+        let mut measured = Measured::of(Kind::Voltage);
         measured.open("first.csv", b"frequency,voltage\n1,2\n2,3\n3,x\n".to_vec());
         while measured.work() {}
         assert_eq!(measured.file.as_ref().map(|file| file.reading.domain), Some(Domain::Frequency));

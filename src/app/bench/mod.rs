@@ -9,6 +9,7 @@
 
 pub(super) mod measured;
 pub(super) mod questions;
+pub(super) mod recorded;
 pub(super) mod shaking;
 
 use measured::Measured;
@@ -16,21 +17,42 @@ use measured::Measured;
 use super::view::View;
 use crate::model::{Device, Dimension, ElectricalScaling, Limits, ModelError};
 use crate::questions::design::Operating;
+use crate::questions::design::measured::Kind;
 use crate::questions::harvest::HarvestStudy;
 use crate::scenario::{ModelChoice, Scenario};
 use crate::sentence::Sentence;
 
 /// What the bench keeps beside the view.
-#[derive(Default)]
 pub(super) struct Bench {
     /// Why the last change of the device was not made.
     pub refusal: Option<Sentence>,
     /// Measured data.
     pub measured: Measured,
+    /// The recording that shakes the base.
+    pub vibration: Measured,
     /// Modes and force law before the present ones.
     pub before: ModelChoice,
     /// Curves and numbers kept to compare with.
     pub pinned: Option<Box<Pinned>>,
+}
+
+impl Default for Bench {
+    fn default() -> Self {
+        Self {
+            refusal: None,
+            measured: Measured::of(Kind::Voltage),
+            vibration: Measured::of(Kind::Acceleration),
+            before: ModelChoice::default(),
+            pinned: None,
+        }
+    }
+}
+
+impl Bench {
+    /// The file in which this quantity is looked for.
+    pub(super) fn file_of(&mut self, wanted: Kind) -> &mut Measured {
+        if wanted == Kind::Acceleration { &mut self.vibration } else { &mut self.measured }
+    }
 }
 
 /// A device that was pinned.

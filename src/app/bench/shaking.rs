@@ -1,11 +1,15 @@
-//! What the page Shake asks the crew.
+//! What the page asks the crew where the base is shaken by anything but the sine.
 
+use super::Bench;
+use super::recorded::Recorded;
 use crate::app::view::View;
 use crate::app::view::shake::ShakenBy;
 use crate::app::widgets::number::round_significant;
+use crate::model::ReducedSystem;
 use crate::model::base_motion::chirp::ChirpScale;
 use crate::model::base_motion::{BaseMotion, Chirp, Noise};
-use crate::questions::shake::{AtLevel, Shake, ShakenRun};
+use crate::questions::shake::{AtLevel, Shake};
+use crate::questions::shaken_run::ShakenRun;
 use crate::scenario::{Forgotten, Scenario};
 use crate::scheduler::Table;
 
@@ -17,44 +21,81 @@ const POINTS: usize = 3000;
 const PER_DECADE: i32 = 4;
 /// Vibrations of the first mode that a run takes: under noise, so that most of them count, and in a chirp, so that it is slow.
 const VIBRATIONS: (f64, f64) = (400.0, 1200.0);
+/// Above so many times the model's highest own frequency a recording is cut off: there is no mode to follow it.
+const BEYOND: f64 = 4.0;
 
-/// First natural frequency (Hz) of the device in view; 1 where it has none.
-fn first(scenario: &Scenario) -> f64 {
-    let system = scenario.model.system(scenario.parameters).ok();
-    let lowest =
-        system.map(|system| system.modes.iter().map(|mode| mode.omega).fold(f64::INFINITY, f64::min));
-    lowest.map_or(1.0, |omega| scenario.units().hertz(omega))
+/// Lowest and highest natural frequency (Hz) of the device in view; 1 where it has none.
+fn own(scenario: &Scenario) -> (f64, f64) {
+    let Ok(system) = scenario.model.system(scenario.parameters) else { return (1.0, 1.0) };
+    let own = |pick: fn(f64, f64) -> f64, start| {
+        scenario.units().hertz(system.modes.iter().map(|mode| mode.omega).fold(start, pick))
+    };
+    (own(f64::min, f64::INFINITY), own(f64::max, 0.0))
 }
 
-/// Lowest and highest frequency (Hz) of the shaking: as chosen, or about the first own frequency and twice it.
+/// Lowest natural frequency (dimensionless) of a system: that by which Live counts while no sine shakes it.
+pub(in crate::app) fn first(system: &ReducedSystem) -> f64 {
+    system.modes.iter().map(|mode| mode.omega).fold(f64::INFINITY, f64::min)
+}
+
+/// Lowest and highest frequency (Hz) of the shaking: as chosen, or about the first own frequency and twice it; of a recording up
+/// to where no mode follows.
 pub(in crate::app) fn band(view: &View) -> (f64, f64) {
-    let first = first(&view.scenario);
-    let usual = [0.5 * first, 2.5 * first].map(|end| round_significant(end, 2));
+    let (first, last) = own(&view.scenario);
+    let highest = if view.design.shake.by == ShakenBy::Recorded { BEYOND * last } else { 2.5 * first };
+    let usual = [0.5 * first, highest].map(|end| round_significant(end, 2));
     let (from, to) = view.design.shake.band.unwrap_or(usual.into());
     let (low, high) = (from.min(to), from.max(to));
     (low, high.max(1.001 * low))
 }
 
-/// How long the shaking lasts (s).
+/// How long the shaking lasts (s), where it is no recording.
 pub(in crate::app) fn duration(view: &View) -> f64 {
-    let vibrations = if view.design.shake.by == ShakenBy::Noise { VIBRATIONS.0 } else { VIBRATIONS.1 };
-    view.design.shake.duration.unwrap_or_else(|| round_significant(vibrations / first(&view.scenario), 2))
+    let vibrations = if view.design.shake.by == ShakenBy::Chirp { VIBRATIONS.1 } else { VIBRATIONS.0 };
+    let usual = || round_significant(vibrations / own(&view.scenario).0, 2);
+    view.design.shake.duration.unwrap_or_else(usual)
 }
 
-/// The motion of the base at a level (g).
-fn motion(view: &View, level: f64) -> BaseMotion {
-    let shake = &view.design.shake;
-    let ((from, to), duration) = (band(view), duration(view));
-    match shake.by {
-        ShakenBy::Noise => BaseMotion::Noise(Noise {
-            from: Some(from),
-            to: Some(to),
-            rms: Some(level),
-            spectrum: None,
-            duration,
-            seed: shake.seed as u64,
-        }),
+/// The recording in view, when it has been brought.
+pub(in crate::app) fn recorded<'a>(view: &View, bench: &'a Bench) -> Option<&'a Recorded> {
+    let brought = bench.vibration.file.as_ref()?.recorded.as_ref()?;
+    let wanted = view.design.shake.recording.as_ref();
+    wanted.is_none_or(|wanted| wanted.checksum == brought.recording.checksum).then_some(brought)
+}
+
+/// The motion of the base at a level (g); none without the recording.
+pub(in crate::app) fn motion(view: &View, bench: &Bench, level: f64) -> Option<BaseMotion> {
+    Some(match view.design.shake.by {
+        ShakenBy::Noise => BaseMotion::Noise(noise(view, level)),
         ShakenBy::Chirp => BaseMotion::Chirp(chirp(view, level)),
+        ShakenBy::Recorded => {
+            let recorded = recorded(view, bench)?;
+            BaseMotion::Recorded(recorded.motion(view.design.shake.with_mean, band(view).1))
+        }
+    })
+}
+
+/// What shakes the Live tab in place of the sine: the same, but noise that soon begins anew, so that its level can be dragged.
+pub(in crate::app) fn live(view: &View, bench: &Bench) -> Option<BaseMotion> {
+    let shake = &view.design.shake;
+    view.shaken()?;
+    let mut motion = motion(view, bench, shake.level)?;
+    if let BaseMotion::Noise(noise) = &mut motion {
+        noise.duration = noise.duration.min(VIBRATIONS.0 / own(&view.scenario).0);
+    }
+    Some(motion)
+}
+
+/// The noise in view, at a level (g).
+pub(in crate::app) fn noise(view: &View, rms: f64) -> Noise {
+    let (from, to) = band(view);
+    Noise {
+        from: Some(from),
+        to: Some(to),
+        rms: Some(rms),
+        spectrum: None,
+        duration: duration(view),
+        seed: view.design.shake.seed as u64,
     }
 }
 
@@ -65,11 +106,11 @@ pub(in crate::app) fn chirp(view: &View, acceleration: f64) -> Chirp {
     Chirp { from, to, duration: duration(view), acceleration, scale, and_back: true }
 }
 
-/// What is asked about the scenario in view; its own excitation and its start play no role.
-pub(in crate::app) fn question(view: &View) -> (Scenario, Shake) {
+/// What is asked about the scenario in view; its own excitation and its start play no role. Nothing without the recording.
+pub(in crate::app) fn question(view: &View, bench: &Bench) -> Option<(Scenario, Shake)> {
     let noise = view.design.shake.by == ShakenBy::Noise;
     let realisations = if noise { REALISATIONS } else { 1 };
-    let excitation = motion(view, view.design.shake.level);
+    let excitation = motion(view, bench, view.design.shake.level)?;
     let usual = Scenario::default().parameters;
     let scenario = view.scenario.forgetting(&[
         Forgotten::Start,
@@ -77,12 +118,12 @@ pub(in crate::app) fn question(view: &View) -> (Scenario, Shake) {
         Forgotten::Number(crate::model::Parameter::Beta, usual.beta),
         Forgotten::Number(crate::model::Parameter::Omega, usual.omega),
     ]);
-    (scenario, Shake { excitation, realisations, points: POINTS })
+    Some((scenario, Shake { excitation, realisations, points: POINTS }))
 }
 
 /// The runs under the shaking in view; none of a device that cannot be computed.
-pub(in crate::app) fn runs(view: &View) -> Option<Table<ShakenRun>> {
-    let (scenario, shake) = question(view);
+pub(in crate::app) fn runs(view: &View, bench: &Bench) -> Option<Table<ShakenRun>> {
+    let (scenario, shake) = question(view, bench)?;
     shake.runs(&scenario).ok()
 }
 
@@ -94,12 +135,11 @@ pub(in crate::app) fn levels(view: &View) -> Vec<f64> {
 }
 
 /// The devices at these levels.
-pub(in crate::app) fn over_levels(view: &View) -> Table<AtLevel> {
-    let (scenario, shake) = question(view);
-    let at = |level: f64| AtLevel {
-        scenario: scenario.clone(),
-        excitation: motion(view, level),
-        realisations: shake.realisations,
+pub(in crate::app) fn over_levels(view: &View, bench: &Bench) -> Option<Table<AtLevel>> {
+    let (scenario, shake) = question(view, bench)?;
+    let at = |level: f64| {
+        let excitation = motion(view, bench, level)?;
+        Some(AtLevel { scenario: scenario.clone(), excitation, realisations: shake.realisations })
     };
-    Table::new(levels(view).into_iter().map(at).collect())
+    Some(Table::new(levels(view).into_iter().filter_map(at).collect()))
 }

@@ -8,6 +8,7 @@ use self::views::view;
 use super::*;
 use crate::app::lessons::LessonId;
 use crate::app::view::design::Side;
+use crate::app::view::shake::Recording;
 use crate::app::view::{MapWindow, Panel, Tab};
 use crate::export::number::shortest;
 use crate::model::materials::Ceramic;
@@ -71,6 +72,7 @@ fn every_field_of_a_view_is_in_links_and_no_other() {
     view.scenario.initial = Some(vec![0.0; 5]);
     view.scenario.model.residual_moment = true;
     view.design.search.third = Some(Side::of(Dimension::MagnetDistance));
+    view.design.shake.recording = Some(Recording::default());
     let (value, mut paths) = (view.to_value(), Vec::new());
     leaves(&value, "", &mut paths);
     // The version of a scenario is the version of the link.

@@ -9,11 +9,13 @@
 //! when the equilibrium moves.
 //!
 //! Only what is looked at (`view::live`) is stored, linked and undone; the run is not. While the hand moves, the
-//! ordinary run of the other tabs waits. Sound is made as samples in Rust and played by `assets/shell/sound.js` piece
+//! ordinary run of the other tabs waits. Where anything but the sine shakes the base (`live::shaking`), `turns` counts periods of
+//! the first natural frequency, and a motion begins at a sample of the signal. Sound is made as samples in Rust and played by `assets/shell/sound.js` piece
 //! by piece; each ends in a fade that the next one takes back, so that a late or a last piece does not click.
 
 mod action;
 mod run;
+mod shaking;
 mod sound;
 mod trail;
 
@@ -26,10 +28,12 @@ use super::session::Session;
 use super::view::View;
 use super::view::live::LiveView;
 use crate::dynamics::{IntegrationError, Outcome, Reach};
+use crate::model::base_motion::BaseMotion;
 use crate::model::{ModelError, ParameterSet, ReducedSystem};
 use crate::scenario::{ModelChoice, Scenario};
 use crate::sentence::Sentence;
-use run::LiveRun;
+use run::{Drive, LiveRun};
+pub(super) use shaking::Shaking;
 use sound::Sound;
 
 pub(super) use action::{End, LiveAction};
@@ -58,6 +62,8 @@ pub(super) struct Live {
     run: Option<LiveRun>,
     /// The numbers that it follows.
     followed: Option<(ParameterSet, ModelChoice)>,
+    /// What shakes it in place of the sine.
+    shaking: Option<Shaking>,
     /// Why the numbers in view are not those of the run.
     pub refusal: Option<Sentence>,
     pub ended: Option<End>,
@@ -101,6 +107,43 @@ impl Live {
     /// A piece of sound, when one is ready.
     pub(super) fn chunk(&mut self) -> Option<Vec<f32>> {
         self.sound.as_mut()?.chunk()
+    }
+
+    /// Has the base shaken by `motion` from now on, by the sine without one.
+    pub(super) fn shake(&mut self, motion: Option<BaseMotion>, scenario: &Scenario) {
+        let units = scenario.units();
+        if self.shaking.as_ref().map(|shaking| (&shaking.motion, shaking.units))
+            == motion.as_ref().map(|motion| (motion, units))
+        {
+            return;
+        }
+        let by_sine = self.shaking.is_none() || motion.is_none();
+        self.shaking = match motion.map(|motion| Shaking::of(motion, units)).transpose() {
+            Ok(shaking) => shaking,
+            Err(error) => return self.refuse(&error),
+        };
+        self.refusal = None;
+        if by_sine || self.ended.is_some() {
+            // Another kind of time: periods are others.
+            (self.run, self.followed, self.ended) = (None, None, None);
+        } else if let Some(run) = &mut self.run {
+            let signal = self.shaking.as_ref().map(|shaking| shaking.signal.clone());
+            let system = run.system().clone();
+            let adopted = run.adopt(system, signal);
+            self.note(adopted);
+        }
+    }
+
+    /// What shakes the base in place of the sine, and the time (s) reached in it.
+    pub(super) fn shaken(&self) -> Option<(&Shaking, f64)> {
+        let shaking = self.shaking.as_ref()?;
+        let (_, place) = self.run.as_ref()?.signal()?;
+        Some((shaking, place * shaking.units.time))
+    }
+
+    /// The period (dimensionless) by which the run counts.
+    pub(super) fn period(&self) -> Option<f64> {
+        self.run.as_ref().map(LiveRun::period)
     }
 
     /// Goes on by the time since the last frame, where it is `in_sight`; `now` is the page's clock (s). Whether it goes on
@@ -189,7 +232,11 @@ impl Live {
             Ok(system) => {
                 let state = state.unwrap_or_else(|| vec![0.0; system.dimension()]);
                 self.shapes = curves::shapes(&system);
-                let begun = LiveRun::begin(system, state, turns, time);
+                let drive = self
+                    .shaking
+                    .as_ref()
+                    .map_or(Drive::Sine, |shaking| Drive::Signal(shaking.signal.clone(), 0));
+                let begun = LiveRun::begin(system, drive, state, turns, time);
                 let begun = begun.map(|run| self.run = Some(run));
                 self.note(begun);
             }
@@ -220,7 +267,7 @@ impl Live {
                 self.refusal = None;
                 self.shapes = curves::shapes(&system);
                 self.trail.change(run.turns(), system.dimension());
-                let adopted = run.adopt(system);
+                let adopted = run.adopt(system, None);
                 self.note(adopted);
             }
             Err(error) => self.refuse(&error),
@@ -288,7 +335,8 @@ pub(super) fn kick(live: &LiveView, system: &ReducedSystem) -> f64 {
 
 /// Where the run of the other tabs has settled, with its turns and its time, when it belongs to the numbers in view.
 pub(super) fn settled<'a>(view: &View, session: &'a Session) -> Option<(&'a [f64], f64, f64)> {
-    let shown = session.shown.as_ref().filter(|shown| shown.scenario == view.scenario)?;
+    let by_sine = !view.design.shake.everywhere;
+    let shown = session.shown.as_ref().filter(|shown| by_sine && shown.scenario == view.scenario)?;
     let run = Some(&shown.run).filter(|run| run.outcome() == Outcome::Completed)?;
     let time = run.trajectory.end_time();
     Some((run.trajectory.final_state(), time / run.system.parameters.period(), time))

@@ -75,7 +75,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use crate::app::live::run::LiveRun;
+    use crate::app::live::run::{Drive, LiveRun};
     use crate::dynamics::{Reach, Settings, Trajectory};
     use crate::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 
@@ -86,7 +86,7 @@ mod tests {
         let system = system.expect("a valid device");
         let whole = Trajectory::compute(&system, &[0.0; 5], 10.0, Settings::default()).expect("a run");
         let period = system.parameters.period();
-        let mut run = LiveRun::begin(system, vec![0.0; 5], 0.0, 0.0).expect("from rest");
+        let mut run = LiveRun::begin(system, Drive::Sine, vec![0.0; 5], 0.0, 0.0).expect("from rest");
         let (mut sound, mut expected) = (Sound::new(0.0, 0.0), Leveller { level: LEAST });
         let speed = 110.0;
         sound.tune(0.0, speed);

@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::app::bench::{Bench, shaking};
 use crate::app::view::Tab;
-use crate::dynamics::{Settings, Trajectory};
+use crate::dynamics::{Ongoing, Settings, Trajectory};
 use crate::model::{ForceLaw, Parameter};
 
 /// A frame (s).
@@ -138,7 +139,8 @@ fn state_and_phase_go_on_when_a_number_changes() {
         let mut slope = vec![0.0; 5];
         let rest = system.rest_force().rest(system.tip_displacement(&state));
         system.derivative(&state, rest, (TAU * before.turns).sin(), &mut slope);
-        let mut run = LiveRun::begin(system.clone(), state.clone(), before.turns, 0.0).expect("a state");
+        let mut run =
+            LiveRun::begin(system.clone(), Drive::Sine, state.clone(), before.turns, 0.0).expect("a state");
         let step = 1e-5 / system.parameters.period();
         assert_eq!(run.go_to(before.turns + step), Ok(Reach::There));
         for i in 0..5 {
@@ -271,4 +273,56 @@ fn a_change_of_numbers_is_cheap_enough_for_every_frame() {
             assert!(each < 60.0, "{modes} {law:?} {parameter:?}: {each} ms");
         }
     }
+}
+
+#[test]
+fn under_noise_it_is_the_run_of_the_integrator_and_goes_on_through_changes() {
+    let mut view = view(ParameterSet { alpha: 5e-3, ..figure_9() }, ForceLaw::Exact);
+    view.design.shake.everywhere = true;
+    view.live.speed = 20.0;
+    let bench = Bench::default();
+    let motion = |view: &View| shaking::live(view, &bench);
+    let mut live = Live::default();
+    let mut clock = 0.0;
+    let mut frames = |live: &mut Live, view: &View, count: usize| {
+        for _ in 0..count {
+            live.shake(motion(view), &view.scenario);
+            live.frame(clock, view, true);
+            clock += FRAME;
+        }
+    };
+    frames(&mut live, &view, 40);
+    let (system, state, now) = live.now().expect("a run");
+    let shaking = Shaking::of(motion(&view).expect("noise"), view.scenario.units()).expect("a signal");
+    let mut whole = Ongoing::under(system, (shaking.signal.clone(), 0), &[0.0; 5]).expect("from rest");
+    let mut expected = [0.0; 5];
+    while whole.read(now.time, 1000, &mut expected) == Ok(Reach::Later) {}
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9 * (1.0 + b.abs()));
+    assert!(near(state, &expected) && now.turns > 10.0 && expected[4].abs() > 0.0, "{state:?} {expected:?}");
+    // A softer noise goes on where the other was, up to a sample.
+    let (_, before) = live.shaken().expect("shaken");
+    view.design.shake.level *= 0.5;
+    live.shake(motion(&view), &view.scenario);
+    let (shaking, after) = live.shaken().expect("shaken");
+    assert!(
+        (0.0..=1.001 * shaking.signal.interval() * shaking.units.time).contains(&(after - before)),
+        "{before} {after}"
+    );
+    // It begins anew where it ends, with the motion as it is.
+    view.live.speed = 200.0;
+    let mut places = Vec::new();
+    for _ in 0..160 {
+        frames(&mut live, &view, 1);
+        places.push(live.shaken().expect("shaken").1);
+    }
+    assert!(live.ended.is_none() && places.windows(2).any(|pair| pair[1] < pair[0]), "{places:?}");
+    let turns = live.turns();
+    assert!(turns > 400.0 && live.trail.samples.len() > 1000);
+    // Kicked, it goes on from the next sample; with the sine again it starts afresh.
+    live.act(LiveAction::Kick(1.0), &view, &Session::default());
+    frames(&mut live, &view, 2);
+    assert!(live.ended.is_none() && live.turns() > turns);
+    view.design.shake.everywhere = false;
+    frames(&mut live, &view, 2);
+    assert!(live.shaken().is_none() && live.turns() < 10.0);
 }

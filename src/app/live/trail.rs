@@ -65,6 +65,9 @@ pub(in crate::app) struct Trail {
     pub strobe: VecDeque<Sample>,
     /// Where the tip was kicked, as long as that is in sight.
     pub kicks: VecDeque<Sample>,
+    /// Under a signal: the time (dimensionless) reached in it at the end of each turn, and the largest |v| of the turn.
+    pub peaks: VecDeque<(f64, f64)>,
+    peak: f64,
     /// Turns at which the numbers changed last.
     pub changed: f64,
     /// Half heights of the scales of the four values.
@@ -92,11 +95,16 @@ impl Trail {
     pub(super) fn take(&mut self, run: &LiveRun) {
         let sample = Sample::of(run);
         self.add(sample, run.system().parameters.kappa);
+        self.peak = self.peak.max(sample.values[0].abs());
         self.swing.see(sample.values[2], run.state());
         if self.next.is_multiple_of(PER_TURN) {
             keep(&mut self.strobe, sample, POINTS);
             if let Some(sums) = self.sums.replace(Sums::default()) {
                 keep(&mut self.whole, sums, MEAN_PERIODS);
+            }
+            let peak = std::mem::take(&mut self.peak);
+            if let Some((_, place)) = run.signal() {
+                keep(&mut self.peaks, (place, peak), POINTS);
             }
             keep(&mut self.swings, std::mem::take(&mut self.swing), SWINGS);
         }
@@ -170,6 +178,7 @@ impl Trail {
         self.samples.clear();
         self.strobe.clear();
         self.kicks.clear();
+        self.peaks.clear();
     }
 
     /// Notes that the tip was kicked.

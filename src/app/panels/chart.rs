@@ -41,7 +41,7 @@ fn hint(context: &Context<'_>) -> String {
     }
 }
 
-fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
+fn ask(Asking { view, session, studies, .. }: &mut Asking<'_>) {
     let Some(boundaries) = &session.boundaries else { return };
     let (scenario, chart) = questions::chart(view, boundaries);
     if chart.quantity == Quantity::Multiplier {

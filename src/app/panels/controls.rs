@@ -2,6 +2,7 @@
 
 use egui::Ui;
 
+use super::design::shaken_by;
 use super::frequency::resonance_marks;
 use super::{Context, beam, device, facts, structure};
 use crate::app::map::Boundaries;
@@ -19,11 +20,20 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// What stands above the plots where there is one column: what is changed most.
 pub(in crate::app) fn above(context: &mut Context<'_>, ui: &mut Ui) {
-    if device::is_shown(context.view) {
+    let may_be_shaken = matches!(context.view.tab, Tab::Explore | Tab::Live);
+    if may_be_shaken {
+        shaken_by::choose(context, ui, true);
+    }
+    if context.view.shaken().is_some() {
+        shaken_by::controls(context, ui);
+        if !device::is_shown(context.view) {
+            main_controls(context, ui, &[Parameter::Alpha]);
+        }
+    } else if device::is_shown(context.view) {
         device::excitation(context, ui);
     } else {
         device::choose_units(context, ui);
-        main_controls(context, ui);
+        main_controls(context, ui, &Parameter::of(&[Part::Main]));
     }
 }
 
@@ -34,21 +44,21 @@ pub(in crate::app) fn below(context: &mut Context<'_>, ui: &mut Ui) {
     } else {
         structure::show(context, ui);
     }
-    // The Live tab has its own.
-    if context.view.tab != Tab::Live {
+    // The Live tab has its own, and this one moves with the sine.
+    if context.view.tab != Tab::Live && context.view.shaken().is_none() {
         ui.add_space(4.0);
         beam::show(context, ui);
     }
 }
 
-/// Damping, excitation, frequency.
-fn main_controls(context: &mut Context<'_>, ui: &mut Ui) {
+/// Damping, excitation, frequency, or some of them.
+fn main_controls(context: &mut Context<'_>, ui: &mut Ui, shown: &[Parameter]) {
     let mut set = context.view.scenario.parameters;
     let before = set;
     let units = context.view.scenario.units();
     let boundaries = context.session.boundaries.as_ref();
     let marks = boundaries.map_or_else(Vec::new, resonance_marks);
-    for parameter in Parameter::of(&[Part::Main]) {
+    for parameter in shown.iter().copied() {
         let (secondary, marks) = match parameter {
             Parameter::Alpha => (damping_in_words(boundaries, &set), &[][..]),
             Parameter::Beta => (excitation_in_words(&units, &set), &[][..]),

@@ -35,7 +35,7 @@ fn hint(context: &Context<'_>) -> String {
     }
 }
 
-fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
+fn ask(Asking { view, session, studies, .. }: &mut Asking<'_>) {
     if let Some(question) = questions::curves(view, session) {
         studies.lanes.ask(question, |(scenario, curves)| CurvesStudy::new(scenario, curves).ok());
     }

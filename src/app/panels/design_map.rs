@@ -26,7 +26,7 @@ pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Search), |_| tr("Map"
     .hint(|context| context.computing::<DesignMap>(tr("drag or click to go there")))
     .asking(ask);
 
-fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
+fn ask(Asking { view, session, studies, .. }: &mut Asking<'_>) {
     let question = bench::questions::map(view, session);
     studies.lanes.ask(question, |question| DesignMap::new(question, SIZE).ok());
 }

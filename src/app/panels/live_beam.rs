@@ -20,7 +20,8 @@ pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Live), |_| tr("Live bea
 
 /// How fast it moves, next to the device.
 fn hint(context: &Context<'_>) -> String {
-    let hertz = context.view.scenario.units().hertz(context.view.scenario.parameters.omega);
+    let Some(period) = context.live.period() else { return String::new() };
+    let hertz = 1.0 / (period * context.view.scenario.units().time);
     let slower = hertz / context.view.live.speed;
     if (0.95..1.05).contains(&slower) {
         return tr("as fast as the device").to_owned();
@@ -47,7 +48,9 @@ fn picture(context: &mut Context<'_>, ui: &mut Ui) {
     let within = |shape: &&[[f64; 2]]| !shape.is_empty() && shape.iter().all(|point| point[1].abs() < 1.0);
     let extremes: Vec<&[[f64; 2]]> = extremes.iter().map(Vec::as_slice).filter(within).collect();
     let p = &system.parameters;
-    let base = p.beta * (TAU * now.turns.fract()).sin();
+    // Where the base is cannot be told from its acceleration: it is drawn at rest.
+    let swings = context.live.shaken().is_none();
+    let base = if swings { p.beta * (TAU * now.turns.fract()).sin() } else { 0.0 };
     let mut beam = BeamView::new(&shape, -gap).base(base).extremes(&extremes);
     if p.c0 != 0.0 {
         beam = beam.gap((gap + now.values[2]) / gap);

@@ -9,9 +9,12 @@ use super::spec::{Place, Spec};
 use crate::app::live::{PORTRAIT, Sample};
 use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
-use crate::app::view::Tab;
+use crate::app::view::shake::ShakenBy;
+use crate::app::view::{Tab, View};
+use crate::app::widgets::plot_style::Axis;
 use crate::app::widgets::{Series, legend, plot_style};
 use crate::export::Pen;
+use crate::model::base_motion::{BaseMotion, Chirp};
 
 /// Pieces of the trail, each fainter than the next.
 const PIECES: usize = 12;
@@ -21,11 +24,58 @@ const FAINTEST: f32 = 0.08;
 const AGES: [(usize, f32); 4] = [(16, 1.0), (120, 0.8), (600, 0.55), (usize::MAX, 0.3)];
 
 /// The portrait.
-pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Live), |_| tr("Live phase portrait"), plot)
-    .hint(|context| fill("{count} Poincaré points", &[("count", &context.live.trail.strobe.len())]))
+pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Live), title, contents)
+    .hint(hint)
     .embedded("live_phase", marked("Live phase portrait"));
 
+fn title(view: &View) -> &'static str {
+    match view.shaken() {
+        Some(ShakenBy::Chirp) => tr("Voltage over the frequency of the chirp"),
+        _ => tr("Live phase portrait"),
+    }
+}
+
+fn hint(context: &Context<'_>) -> String {
+    if context.live.shaken().is_some() {
+        return String::new();
+    }
+    fill("{count} Poincaré points", &[("count", &context.live.trail.strobe.len())])
+}
+
+fn contents(context: &mut Context<'_>, ui: &mut Ui) {
+    match context.live.shaken().map(|(shaking, _)| &shaking.motion) {
+        Some(BaseMotion::Chirp(chirp)) => over_frequency(context, ui, chirp),
+        _ => plot(context, ui),
+    }
+}
+
+/// The largest voltage of each vibration over the frequency that the chirp had there.
+fn over_frequency(context: &Context<'_>, ui: &mut Ui, chirp: &Chirp) {
+    legend::legend(ui, &[(Series::Up, tr("going up")), (Series::Down, tr("going down"))]);
+    let unit = context.view.scenario.units().time;
+    let way = |back: bool| -> Vec<PlotPoint> {
+        let peaks = context.live.trail.peaks.iter().map(|(place, peak)| (place * unit, *peak));
+        let part = peaks.filter(|(time, _)| (*time > 0.5 * chirp.duration) == back);
+        part.map(|(time, peak)| PlotPoint::new(chirp.frequency(time), peak)).collect()
+    };
+    let (up, down) = (way(false), way(true));
+    let highest = up.iter().chain(&down).map(|point| point.y).fold(0.0, f64::max);
+    let (x, y) = (Axis::new(tr("frequency"), "f").unit("Hz"), Axis::new(tr("voltage"), "|v|").unit("V"));
+    let (low, high) = (chirp.from.min(chirp.to), chirp.from.max(chirp.to));
+    let here = context.live.shaken().map(|(_, time)| chirp.frequency(time));
+    let colour = theme::tokens(ui).ruler;
+    plot_style::fixed(ui, "live chirp", &x, &y).show(ui, |plot| {
+        plot.set_plot_bounds(PlotBounds::from_min_max([low, 0.0], [high, 1.08 * highest.max(1e-3)]));
+        if let Some(here) = here {
+            plot_style::rule(plot, true, "", here, colour, Pen::Line(1.0));
+        }
+        plot_style::points(plot, Series::Up, tr("going up"), &up);
+        plot_style::points(plot, Series::Down, tr("going down"), &down);
+    });
+}
+
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
+    let repeats = context.live.shaken().is_none();
     let Some(now) = context.live.present() else { return };
     let (traced, trail) = (Traced::of(context), &context.live.trail);
     let old = trail.strobe.partition_point(|sample| sample.turns < trail.changed);
@@ -34,12 +84,18 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
         (Series::Poincare, tr("at phase 0")),
         (Series::Ghost, tr("before the last change")),
     ];
-    legend::legend(ui, if old > 0 { &entries } else { &entries[..2] });
+    let told = match (repeats, old > 0) {
+        (false, _) => 1,
+        (true, false) => 2,
+        (true, true) => 3,
+    };
+    legend::legend(ui, &entries[..told]);
     let place = |sample: &Sample| traced.point(sample).into();
     let mut motion: Vec<PlotPoint> = trail.since(now.turns - PORTRAIT).map(place).collect();
     motion.push(place(&now));
+    let (old, end) = if repeats { (old, trail.strobe.len()) } else { (0, 0) };
     let before: Vec<PlotPoint> = trail.strobe.range(..old).map(place).collect();
-    let mut points: Vec<PlotPoint> = trail.strobe.range(old..).map(place).collect();
+    let mut points: Vec<PlotPoint> = trail.strobe.range(old..end).map(place).collect();
     // Newest first, so that ages count from the front.
     points.reverse();
     let kicks = trail.kicks.iter().filter(|kick| kick.turns >= now.turns - PORTRAIT);

@@ -28,7 +28,7 @@ pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Load), |_| tr("Over t
     .asking(ask)
     .embedded("load", marked("Over the load"));
 
-fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
+fn ask(Asking { view, session, studies, .. }: &mut Asking<'_>) {
     studies.load(view);
     if let Some(loads) = studies.lanes.study() {
         studies.tabulate(questions::best_frequencies(view, session, loads));

@@ -22,7 +22,7 @@ pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Sweep), |_| tr("Orbit d
     .embedded("orbit", marked("Orbit diagram"));
 
 /// Asks for the sweep in view.
-pub(super) fn ask(Asking { view, session, studies }: &mut Asking<'_>) {
+pub(super) fn ask(Asking { view, session, studies, .. }: &mut Asking<'_>) {
     studies.lanes.ask(questions::sweep(view, session), |(scenario, sweep)| {
         Some(SweepStudy::new(scenario, sweep, &[Direction::Up, Direction::Down]))
     });

@@ -26,7 +26,8 @@ pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Live), |_| tr("Oscillos
     .embedded("oscilloscope", marked("Oscilloscope"));
 
 fn triggered(context: &Context<'_>) -> bool {
-    context.view.live.speed >= TRIGGERED_FROM
+    // Without a period there is no phase to wait for.
+    context.view.live.speed >= TRIGGERED_FROM && context.live.shaken().is_none()
 }
 
 fn contents(context: &mut Context<'_>, ui: &mut Ui) {
@@ -49,10 +50,9 @@ fn choices(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn plot(context: &Context<'_>, ui: &mut Ui, triggered: bool) {
-    let (Some((system, _, _)), Some(now)) = (context.live.now(), context.live.present()) else { return };
+    let (Some(period), Some(now)) = (context.live.period(), context.live.present()) else { return };
     let traced = Traced::of(context);
     let (units, periods) = (si(context), context.view.live.periods as f64);
-    let period = system.parameters.period();
     // From turns or time to the axis, where the window begins at 0 or ends there.
     let unit = units.map_or(1.0 / period, |units| units.time);
     let begun = if triggered { (now.turns / periods).floor() * periods } else { now.turns - periods };
@@ -79,6 +79,7 @@ fn plot(context: &Context<'_>, ui: &mut Ui, triggered: bool) {
     }
     let x = match units {
         Some(_) => Axis::new(tr("time"), "t").unit("s"),
+        None if context.live.shaken().is_some() => Axis::new(tr("natural periods"), "ω₁t/2π"),
         None => Axis::new(tr("excitation periods"), "ωt/2π"),
     };
     let [height, _] = traced.scales(context);

@@ -2,17 +2,23 @@
 
 use egui::Ui;
 
+use super::design::shaking;
 use super::grid::{GAP, LEAST_HEIGHT_ALONE, grid, place};
 use super::spec::Place;
 use super::{Context, list, verdict};
 use crate::app::command::Command;
 use crate::app::text::tr;
+use crate::app::view::design::Page;
 use crate::app::view::{Panel, Tab};
 use crate::app::widgets::{Card, Icon};
 
 /// The verdict and the plots of the place in view.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    verdict::show(context, ui);
+    if Place::of(context.view) == Place::Page(Page::Shake) {
+        shaking::in_place_of_verdict(context, ui);
+    } else {
+        verdict::show(context, ui);
+    }
     ui.add_space(GAP - ui.spacing().item_spacing.y);
     cards(context, ui);
 }

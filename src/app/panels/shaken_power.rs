@@ -4,14 +4,14 @@ use egui::Ui;
 use egui_plot::PlotPoint;
 
 use super::Context;
-use super::design::shaking::{ask, found};
+use super::design::shaking::{ask, found, waiting};
 use super::spec::{Place, Spec};
 use crate::app::text::tr;
 use crate::app::view::design::Page;
 use crate::app::widgets::number::prefix;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
-use crate::questions::shake::Found;
+use crate::questions::shaken_run::Found;
 
 /// The means.
 pub(super) const PANEL: Spec =
@@ -21,9 +21,9 @@ pub(super) const PANEL: Spec =
 fn so_far(run: &Found) -> Vec<[f64; 2]> {
     let (mut duration, mut energy) = (0.0, 0.0);
     let mut points = Vec::new();
-    for (length, power, _) in run.parts.iter().filter(|part| part.0 > 0.0) {
+    for (length, square, _) in run.parts.iter().filter(|part| part.0 > 0.0) {
         duration += length;
-        energy += length * power;
+        energy += length * run.watts * square;
         points.push([duration, energy / duration]);
     }
     points
@@ -32,7 +32,7 @@ fn so_far(run: &Found) -> Vec<[f64; 2]> {
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let runs = found(context).and_then(Result::ok).unwrap_or_default();
     if runs.is_empty() {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), tr("computing"));
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
     }
     let curves: Vec<(bool, Vec<[f64; 2]>)> = runs.iter().map(|run| (run.magnets, so_far(run))).collect();
     let highest = curves.iter().flat_map(|(_, curve)| curve).map(|point| point[1]).fold(0.0, f64::max);

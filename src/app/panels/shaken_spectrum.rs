@@ -4,7 +4,7 @@ use egui::{Id, Ui};
 use egui_plot::PlotBounds;
 
 use super::Context;
-use super::design::shaking::{ask, found};
+use super::design::shaking::{ask, found, waiting};
 use super::spec::{Place, Spec};
 use crate::app::colours;
 use crate::app::text::tr;
@@ -13,7 +13,7 @@ use crate::app::view::design::Page;
 use crate::app::widgets::number::exact;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{draw_raster, raster, recorder};
-use crate::questions::shake::ShakenRun;
+use crate::questions::shaken_run::ShakenRun;
 use crate::scheduler::Table;
 
 /// Decades that are shown below the highest amplitude.
@@ -27,7 +27,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let found = found(context).and_then(Result::ok).unwrap_or_default();
     let Some(shown) = found.iter().find_map(|run| run.spectrogram.as_ref()).filter(|shown| shown.columns > 0)
     else {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), tr("computing"));
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
     };
     let tokens = theme::tokens(ui);
     let highest = shown.amplitudes.iter().copied().fold(0.0, f32::max).max(f32::MIN_POSITIVE);

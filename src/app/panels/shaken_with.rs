@@ -4,9 +4,9 @@ use egui::Ui;
 use egui_plot::PlotPoint;
 
 use super::Context;
-use super::design::shaking::{ask, found};
+use super::design::shaking::{ask, found, waiting};
 use super::spec::{Asking, Place, Spec};
-use crate::app::bench::shaking::{chirp, levels, over_levels};
+use crate::app::bench::shaking::{chirp, levels, over_levels, recorded};
 use crate::app::text::tr;
 use crate::app::theme;
 use crate::app::view::View;
@@ -15,7 +15,9 @@ use crate::app::view::shake::ShakenBy;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::export::Pen;
-use crate::questions::shake::{AtLevel, Harvested};
+use crate::model::STANDARD_GRAVITY;
+use crate::questions::batch_means::Harvested;
+use crate::questions::shake::AtLevel;
 use crate::scheduler::{Asked as _, Table};
 
 /// The curves.
@@ -27,13 +29,16 @@ fn title(view: &View) -> &'static str {
     match view.design.shake.by {
         ShakenBy::Noise => tr("Power over the level of the noise"),
         ShakenBy::Chirp => tr("Voltage over the frequency of the chirp"),
+        ShakenBy::Recorded => tr("The recorded acceleration"),
     }
 }
 
 fn ask_both(asking: &mut Asking<'_>) {
     ask(asking);
-    if asking.view.design.shake.by == ShakenBy::Noise {
-        asking.studies.tabulate(over_levels(asking.view));
+    if asking.view.design.shake.by == ShakenBy::Noise
+        && let Some(levels) = over_levels(asking.view, asking.bench)
+    {
+        asking.studies.tabulate(levels);
     }
 }
 
@@ -41,14 +46,17 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
     match context.view.design.shake.by {
         ShakenBy::Noise => over_level(context, ui),
         ShakenBy::Chirp => over_frequency(context, ui),
+        ShakenBy::Recorded => recording(context, ui),
     }
 }
 
 fn over_level(context: &Context<'_>, ui: &mut Ui) {
-    let wanted = over_levels(context.view);
+    let wanted = over_levels(context.view, context.bench);
     let study = context.studies.lanes.study::<Table<AtLevel>>();
-    let Some(study) = study.filter(|study| study.asked() == wanted.asked()) else {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), tr("computing"));
+    let asked =
+        |study: &&Table<AtLevel>| wanted.as_ref().is_some_and(|wanted| study.asked() == wanted.asked());
+    let Some(study) = study.filter(asked) else {
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
     };
     legend::legend(
         ui,
@@ -100,7 +108,7 @@ fn over_level(context: &Context<'_>, ui: &mut Ui) {
 fn over_frequency(context: &Context<'_>, ui: &mut Ui) {
     let runs = found(context).and_then(Result::ok).unwrap_or_default();
     if runs.is_empty() {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), tr("computing"));
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
     }
     legend::legend(
         ui,
@@ -124,4 +132,19 @@ fn over_frequency(context: &Context<'_>, ui: &mut Ui) {
         plot_style::points(plot, Series::Up, tr("going up"), &up);
         plot_style::points(plot, Series::Down, tr("going down"), &down);
     });
+}
+
+/// What the base does, as it was brought.
+fn recording(context: &Context<'_>, ui: &mut Ui) {
+    let file = recorded(context.view, context.bench).and(context.bench.vibration.file.as_ref());
+    let Some(file) = file else {
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
+    };
+    legend::legend(ui, &[(Series::Measured, tr("recorded"))]);
+    let points: Vec<PlotPoint> =
+        file.drawn.iter().map(|point| PlotPoint::new(point.x, point.y / STANDARD_GRAVITY)).collect();
+    let (x, y) = (Axis::new(tr("time"), "t").unit("s"), Axis::new(tr("acceleration"), "a").unit("g"));
+    let colour = theme::tokens(ui).theory;
+    plot_style::plot(ui, ("recorded", file.name.as_str()), &x, &y)
+        .show(ui, |plot| plot_style::curve(plot, tr("recorded"), colour, Pen::Line(1.4), &points));
 }

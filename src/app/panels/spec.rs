@@ -3,6 +3,7 @@
 use egui::Ui;
 
 use super::Context;
+use crate::app::bench::Bench;
 use crate::app::crew::Studies;
 use crate::app::session::Session;
 use crate::app::view::design::Page;
@@ -22,6 +23,8 @@ impl Place {
     pub(in crate::app) fn of(view: &View) -> Self {
         match view.tab {
             Tab::Design => Self::Page(view.design.page),
+            // Without the sine there is nothing that repeats.
+            Tab::Explore if view.shaken().is_some() => Self::Page(Page::Shake),
             tab => Self::Tab(tab),
         }
     }
@@ -39,6 +42,7 @@ impl Place {
 pub(in crate::app) struct Asking<'a> {
     pub view: &'a View,
     pub session: &'a Session,
+    pub bench: &'a Bench,
     pub studies: &'a mut Studies,
 }
 

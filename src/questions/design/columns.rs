@@ -1,10 +1,9 @@
-//! What the columns of a file hold, as far as their names say so: nothing is taken for a voltage that may be another thing.
+//! What columns of a file may hold, as far as their names and units say so.
 
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::layout::Layout;
 use crate::model::units::STANDARD_GRAVITY;
 
 /// Which columns are meant, counted from 0, and what turns their numbers into SI units.
@@ -143,61 +142,5 @@ impl Kind {
             (Some(kind), None) => (kind, 1.0),
             (None, None) => (Kind::Unknown, 1.0),
         }
-    }
-}
-
-/// What has to be said by whoever brings the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ask {
-    /// Whether commas are decimal ones or stand between columns.
-    Commas,
-    /// Which column is meant.
-    Column,
-}
-
-/// The columns to begin with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Choice {
-    /// The columns; a guess where something is to be asked.
-    pub columns: Columns,
-    /// What the first of them holds: time or frequency.
-    pub x: Kind,
-    /// What is to be asked before anything is read.
-    pub ask: Option<Ask>,
-}
-
-impl Layout {
-    /// What each column holds, and the SI value of its unit.
-    pub fn kinds(&self) -> Vec<(Kind, f64)> {
-        let named = |i: usize| self.header.as_ref().and_then(|names| names.get(i));
-        (0..self.columns).map(|i| named(i).map_or((Kind::Unknown, 1.0), |name| Kind::of_name(name))).collect()
-    }
-
-    /// Which columns hold time or frequency, and the `wanted` quantity: what names say, and where they say nothing the only
-    /// one there is. Of several that it may be, and of one that is named as another quantity, none is taken by itself.
-    pub fn choose(&self, wanted: Kind) -> Choice {
-        let kinds = self.kinds();
-        let clock = |i: &usize| matches!(kinds[*i].0, Kind::Time | Kind::Frequency);
-        let counted = self.sampling.map(|sampling| sampling.count);
-        let x = match counted {
-            Some(count) => count,
-            None => self.filled.iter().copied().find(clock).or(self.filled.first().copied()),
-        };
-        let values: Vec<usize> = self.filled.iter().copied().filter(|i| Some(*i) != x).collect();
-        let suits: Vec<usize> = values.iter().copied().filter(|i| kinds[*i].0 == wanted).collect();
-        let (y, sure) = match (suits[..].first(), suits.len(), &values[..]) {
-            (Some(one), 1, _) => (*one, true),
-            (_, 0, [one]) => (*one, kinds[*one].0 == Kind::Unknown),
-            (first, _, _) => (first.or(values.first()).copied().unwrap_or(0), false),
-        };
-        let kind = match x {
-            Some(x) if counted.is_none() && kinds[x].0 == Kind::Frequency => Kind::Frequency,
-            _ => Kind::Time,
-        };
-        let x = x.unwrap_or(0);
-        let x_unit = if counted.is_none() && clock(&x) { kinds[x].1 } else { 1.0 };
-        let y_unit = if kinds[y].0 == wanted { kinds[y].1 } else { 1.0 };
-        let ask = if self.unsure { Some(Ask::Commas) } else { (!sure).then_some(Ask::Column) };
-        Choice { columns: Columns { x, x_unit, y, y_unit }, x: kind, ask }
     }
 }

@@ -1,8 +1,9 @@
-//! How a text file of numbers is written: encoding, delimiter, decimal comma, preamble, header, and where times come from.
+//! How a text file of numbers is written: encoding, delimiter, decimal comma, preamble, header, where times come from, and which
+//! columns to begin with: nothing is taken for a voltage that may be another thing.
 
 use std::borrow::Cow;
 
-use super::columns::Kind;
+use super::columns::{Columns, Kind};
 use super::measured_error::MeasuredError;
 use crate::questions::input;
 
@@ -19,6 +20,26 @@ const OVER_RANGE: f64 = 9e36;
 /// Words that mark the same.
 const OVER_WORDS: [&str; 10] =
     ["ol", "+ol", "-ol", "over", "overload", "ovld", "1.#inf", "-1.#inf", "+1.#inf", "####"];
+
+/// What has to be said by whoever brings the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ask {
+    /// Whether commas are decimal ones or stand between columns.
+    Commas,
+    /// Which column is meant.
+    Column,
+}
+
+/// The columns to begin with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Choice {
+    /// The columns; a guess where something is to be asked.
+    pub columns: Columns,
+    /// What the first of them holds: time or frequency.
+    pub x: Kind,
+    /// What is to be asked before anything is read.
+    pub ask: Option<Ask>,
+}
 
 /// How a file is written.
 #[derive(Debug, Clone, PartialEq)]
@@ -335,6 +356,40 @@ impl Layout {
         };
         let named = self.header.as_ref().is_some_and(|names| names.iter().all(|name| !name.is_empty()));
         self.delimiter == b',' && !named && self.rows.len() > 1 && self.rows.iter().all(pairs)
+    }
+
+    /// What each column holds, and the SI value of its unit.
+    pub fn kinds(&self) -> Vec<(Kind, f64)> {
+        let named = |i: usize| self.header.as_ref().and_then(|names| names.get(i));
+        (0..self.columns).map(|i| named(i).map_or((Kind::Unknown, 1.0), |name| Kind::of_name(name))).collect()
+    }
+
+    /// Which columns hold time or frequency, and the `wanted` quantity: what names say, and where they say nothing the only
+    /// one there is. Of several that it may be, and of one that is named as another quantity, none is taken by itself.
+    pub fn choose(&self, wanted: Kind) -> Choice {
+        let kinds = self.kinds();
+        let clock = |i: &usize| matches!(kinds[*i].0, Kind::Time | Kind::Frequency);
+        let counted = self.sampling.map(|sampling| sampling.count);
+        let x = match counted {
+            Some(count) => count,
+            None => self.filled.iter().copied().find(clock).or(self.filled.first().copied()),
+        };
+        let values: Vec<usize> = self.filled.iter().copied().filter(|i| Some(*i) != x).collect();
+        let suits: Vec<usize> = values.iter().copied().filter(|i| kinds[*i].0 == wanted).collect();
+        let (y, sure) = match (suits[..].first(), suits.len(), &values[..]) {
+            (Some(one), 1, _) => (*one, true),
+            (_, 0, [one]) => (*one, kinds[*one].0 == Kind::Unknown),
+            (first, _, _) => (first.or(values.first()).copied().unwrap_or(0), false),
+        };
+        let kind = match x {
+            Some(x) if counted.is_none() && kinds[x].0 == Kind::Frequency => Kind::Frequency,
+            _ => Kind::Time,
+        };
+        let x = x.unwrap_or(0);
+        let x_unit = if counted.is_none() && clock(&x) { kinds[x].1 } else { 1.0 };
+        let y_unit = if kinds[y].0 == wanted { kinds[y].1 } else { 1.0 };
+        let ask = if self.unsure { Some(Ask::Commas) } else { (!sure).then_some(Ask::Column) };
+        Choice { columns: Columns { x, x_unit, y, y_unit }, x: kind, ask }
     }
 }
 

@@ -1,14 +1,14 @@
 //! Measured data: two columns of numbers from a text file, time or frequency and any quantity, a slice at a time.
 //!
 //! `decode`, then `detect` how it is written, then `choose` the columns of the quantity wanted, as far as their names say
-//! which these are ([`super::columns`]); [`super::record`] says what is the matter with the times.
+//! which these are ([`super::layout`], by [`super::columns`]); [`super::record`] says what is the matter with the times.
 
 use std::io::Cursor;
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
 
-pub use super::columns::{Ask, Choice, Columns, Kind};
-pub use super::layout::{FIRST, Layout, Sampling, decode, detect, detect_with, look};
+pub use super::columns::{Columns, Kind};
+pub use super::layout::{Ask, Choice, FIRST, Layout, Sampling, decode, detect, detect_with, look};
 use super::layout::{Reading, quoted, reading};
 pub use super::measured_error::MeasuredError;
 

@@ -94,8 +94,8 @@ pub struct Collocation {
 enum Excitation {
     /// A sine of this amplitude, whose frequency and phase are the grid's.
     Sine { beta: f64 },
-    /// Any acceleration (dimensionless).
-    Signal(Arc<Signal>),
+    /// Any acceleration (dimensionless), from this sample on.
+    Signal(Arc<Signal>, usize),
 }
 
 /// What happened to an attempted step.
@@ -140,20 +140,20 @@ impl Collocation {
     }
 
     /// An integrator of `system` whose base has the acceleration `signal` (dimensionless: in beam lengths and the model's unit
-    /// of time), at time 0 in the state `initial` (length 2N + 1). Its own sine plays no role. Every sample is the end of a step,
-    /// so a run may last as long as the signal.
+    /// of time) from its sample `first` on, at time 0 in the state `initial` (length 2N + 1). Its own sine plays no role. Every
+    /// sample is the end of a step, so a run may last as long as the signal.
     ///
     /// # Errors
     /// As [`Self::new`].
     pub fn under(
         system: &ReducedSystem,
-        signal: Arc<Signal>,
+        (signal, first): (Arc<Signal>, usize),
         initial: &[f64],
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
         let grid = Grid::under(system, &signal);
         let propagator = Propagator::new(&LinearPart::under(system, &signal), grid.longest_step());
-        Self::prepared(system, Excitation::Signal(signal), initial, (grid, propagator, None), settings)
+        Self::prepared(system, Excitation::Signal(signal, first), initial, (grid, propagator, None), settings)
     }
 
     /// As [`Self::from_phase`], with the voltage held at that of `initial`.
@@ -474,9 +474,9 @@ impl Collocation {
                 self.extended[dimension] = beta * sine;
                 self.extended[dimension + 1] = beta * cosine;
             }
-            Excitation::Signal(signal) => {
+            Excitation::Signal(signal, first) => {
                 let (index, place) = self.grid.place();
-                self.extended[dimension..].copy_from_slice(&signal.derivatives(index, place));
+                self.extended[dimension..].copy_from_slice(&signal.derivatives(first + index, place));
             }
         }
     }

@@ -4,11 +4,14 @@
 //! [`Trajectory`](super::Trajectory) reads it. When a number changes, another motion begins where this one was read
 //! last, at the phase that the excitation had there.
 
+use std::sync::Arc;
+
 use super::collocation::{Collocation, Settings};
 use super::outcome::{IntegrationError, Outcome};
 use super::propagator::{StepRest, Workspace};
 use super::step::Step;
 use crate::model::ReducedSystem;
+use crate::model::base_motion::Signal;
 
 /// A motion with dense output of its present step.
 #[derive(Debug)]
@@ -66,6 +69,20 @@ impl Ongoing {
     /// [`IntegrationError::InitialState`] as [`Collocation::new`].
     pub fn new(system: &ReducedSystem, state: &[f64], phase: f64) -> Result<Self, IntegrationError> {
         let integrator = Collocation::from_phase(system, state, phase, Settings::default())?;
+        Ok(Self { integrator, present: Present::default(), outcome: None })
+    }
+
+    /// The motion of `system` from `state` (length 2N + 1) at time 0 under `signal` (dimensionless) from its sample `first` on. It
+    /// must not be read beyond the signal's end.
+    ///
+    /// # Errors
+    /// As [`Collocation::under`].
+    pub fn under(
+        system: &ReducedSystem,
+        signal: (Arc<Signal>, usize),
+        state: &[f64],
+    ) -> Result<Self, IntegrationError> {
+        let integrator = Collocation::under(system, signal, state, Settings::default())?;
         Ok(Self { integrator, present: Present::default(), outcome: None })
     }
 

@@ -1,5 +1,6 @@
 //! How a run can end.
 
+use nanoserde::{DeBin, SerBin};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -11,7 +12,7 @@ use crate::sentence::{Say, Sentence, said};
 pub const ESCAPE_DISPLACEMENT: f64 = 10.0;
 
 /// How a run ended. Escape and contact are results of the mechanics, not failures.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, SerBin, DeBin)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Outcome {
     /// The run reached its end time.
@@ -29,6 +30,25 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// Its word in answers.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Completed => "completed",
+            Self::Escaped { .. } => "escaped",
+            Self::Contact { .. } => "contact",
+        }
+    }
+
+    /// The same where times are counted in another unit, or from another instant.
+    #[must_use]
+    pub fn retimed(self, of: impl Fn(f64) -> f64) -> Self {
+        match self {
+            Self::Completed => Self::Completed,
+            Self::Escaped { time } => Self::Escaped { time: of(time) },
+            Self::Contact { time } => Self::Contact { time: of(time) },
+        }
+    }
+
     /// The time at which the run ended early, if it did.
     pub fn early_end(&self) -> Option<f64> {
         match *self {

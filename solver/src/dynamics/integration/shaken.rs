@@ -83,7 +83,7 @@ impl Shaken {
         (points, every): (usize, usize),
     ) -> Result<Self, IntegrationError> {
         let end = signal.duration();
-        let integrator = Collocation::under(system, signal.clone(), initial, Settings::default())?;
+        let integrator = Collocation::under(system, (signal.clone(), 0), initial, Settings::default())?;
         let modes = system.modes.len();
         let mut participation = vec![0.0; integrator.linear_part().extended_dimension()];
         for (value, mode) in participation[modes..].iter_mut().zip(system.modes.iter()) {

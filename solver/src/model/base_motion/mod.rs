@@ -6,6 +6,7 @@
 pub mod chirp;
 pub mod noise;
 pub mod recorded;
+mod shared;
 pub mod signal;
 
 use nanoserde::{DeBin, SerBin};
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 pub use chirp::Chirp;
 pub use noise::Noise;
 pub use recorded::Recorded;
+pub use shared::Shared;
 pub use signal::{DERIVATIVES, Signal};
 
 use super::ModelError;

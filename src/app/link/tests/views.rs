@@ -11,9 +11,10 @@ use crate::app::view::design::{
     Aim, DROPS, DesignView, FREQUENCIES, POWERS, Page, SCATTERS, SearchView, Side, Watched,
 };
 use crate::app::view::live::{KICKS, LiveView, SPEEDS, Trace, WINDOWS};
-use crate::app::view::shake::ShakeView;
+use crate::app::view::shake::{LEVELS, Recording, ShakeView, ShakenBy};
 use crate::app::view::{MapWindow, Output, Panel, SweepView, Tab, View};
 use crate::dynamics::attractors::sweep::Dwell;
+use crate::model::base_motion::{DURATIONS, FREQUENCIES as BAND};
 use crate::model::layers::Sheet;
 use crate::model::materials::Ceramic;
 use crate::model::{Device, Dimension, ElectricalScaling, ForceLaw, Layers, Limits, Parameter, ParameterSet};
@@ -138,8 +139,20 @@ fn search() -> impl Strategy<Value = SearchView> {
         .prop_map(|(aim, x, y, third, generations)| SearchView { aim, sides: [x, y], third, generations })
 }
 
+fn shake() -> impl Strategy<Value = ShakeView> {
+    let by = select(&[ShakenBy::Noise, ShakenBy::Chirp, ShakenBy::Recorded][..]);
+    let band = option::of((within(BAND), within(BAND)));
+    let recording = option::of((".{0,20}", any::<u32>()))
+        .prop_map(|recording| recording.map(|(name, checksum)| Recording::new(&name, checksum)));
+    (by, any::<[bool; 3]>(), within(LEVELS), band, option::of(within(DURATIONS)), 0..1000_usize, recording)
+        .prop_map(|(by, flags, level, band, duration, seed, recording)| {
+            let [everywhere, octaves, with_mean] = flags;
+            ShakeView { by, everywhere, level, band, duration, octaves, seed, recording, with_mean }
+        })
+}
+
 fn design() -> impl Strategy<Value = DesignView> {
-    const PAGES: [Page; 7] = [
+    const PAGES: [Page; 8] = [
         Page::Harvest,
         Page::Load,
         Page::Materials,
@@ -147,6 +160,7 @@ fn design() -> impl Strategy<Value = DesignView> {
         Page::Search,
         Page::Tolerances,
         Page::Measured,
+        Page::Shake,
     ];
     const WATCHED: [Watched; 5] =
         [Watched::Power, Watched::PerG2, Watched::Voltage, Watched::Peak, Watched::Tip];
@@ -161,14 +175,14 @@ fn design() -> impl Strategy<Value = DesignView> {
     let flags = any::<[bool; 3]>();
     let window = option::of((within(FREQUENCIES), within(FREQUENCIES)));
     let watts = (option::of(within(POWERS)), within(DROPS), within(SCATTERS));
-    (front, flags, window, watts, limits(), search()).prop_map(
+    (front, flags, window, watts, limits(), (search(), shake())).prop_map(
         |(
             (page, watched, mode, resonance, quantity),
             flags,
             window,
             (least, diode_drop, scatter),
             limits,
-            search,
+            (search, shake),
         )| {
             DesignView {
                 page,
@@ -185,7 +199,7 @@ fn design() -> impl Strategy<Value = DesignView> {
                 resonance,
                 quantity,
                 search,
-                shake: ShakeView::default(),
+                shake,
             }
         },
     )

@@ -14,6 +14,7 @@ use crate::app::theme;
 use crate::app::widgets::ParameterSlider;
 use crate::app::widgets::number::with_unit;
 use crate::questions::design::alignment::{align, left};
+use crate::questions::design::measured::Kind;
 
 /// Most excitation periods by which the run is moved: motions of up to four periods fit somewhere.
 const REACH: f64 = 4.0;
@@ -80,7 +81,7 @@ pub(in crate::app::panels) fn controls(context: &mut Context<'_>, ui: &mut Ui, f
         ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
     }
     if reading != file.reading {
-        context.commands.push(Command::Measure(Some(reading)));
+        context.commands.push(Command::Measure(Kind::Voltage, Some(reading)));
     }
 }
 

@@ -10,6 +10,7 @@ use crate::app::text::{fill, say, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::model::Dimension;
+use crate::questions::design::measured::Kind;
 use crate::questions::fit::FitStudy;
 use crate::questions::motions::{Coordinate, at_place};
 use crate::scheduler::{Asked as _, Study as _};
@@ -55,7 +56,7 @@ pub(in crate::app::panels) fn controls(context: &mut Context<'_>, ui: &mut Ui, f
         ui.add_enabled(there, egui::Checkbox::new(ticked, tr(dimension.fact().title)));
     }
     if reading != file.reading {
-        context.commands.push(Command::Measure(Some(reading)));
+        context.commands.push(Command::Measure(Kind::Voltage, Some(reading)));
     }
     let any = reading.fitted.contains(&true) && file.points.len() > 1;
     if ui.add_enabled(any, egui::Button::new(tr("Fit"))).clicked() {

@@ -1,23 +1,25 @@
-//! How the device is shaken on the page Shake, and what it gives in a sentence.
+//! What the device gives under anything but the sine, in sentences.
 
 use egui::{RichText, Ui};
 
-use crate::app::bench::shaking::{band, duration, question, runs};
+use super::shaken_by;
+use crate::app::bench::shaking::{band, motion, question, runs};
 use crate::app::panels::Context;
 use crate::app::text::{fill, say, tr};
 use crate::app::theme;
-use crate::app::view::shake::{DURATIONS, LEVELS, ShakeView, ShakenBy};
-use crate::app::widgets::number::{round_significant, significant, with_unit};
-use crate::app::widgets::{Card, ParameterSlider, chips};
-use crate::questions::shake::{Found, Harvested, ShakeAnswer, ShakenRun};
+use crate::app::view::shake::ShakenBy;
+use crate::app::widgets::Card;
+use crate::app::widgets::number::{significant, with_unit};
+use crate::model::base_motion::BaseMotion;
+use crate::questions::batch_means::Harvested;
+use crate::questions::shake::ShakeAnswer;
+use crate::questions::shaken_run::{Found, ShakenRun};
 use crate::scheduler::{Asked as _, Failure, Study as _, Table};
-
-/// Least width of a slider where two stand side by side.
-const SLIDER: f32 = 300.0;
+use crate::sentence::Say;
 
 /// Asks for the runs.
 pub(in crate::app::panels) fn ask(asking: &mut super::super::spec::Asking<'_>) {
-    if let Some(runs) = runs(asking.view) {
+    if let Some(runs) = runs(asking.view, asking.bench) {
         asking.studies.tabulate(runs);
     }
 }
@@ -27,83 +29,81 @@ pub(in crate::app::panels) fn found<'a>(
     context: &Context<'a>,
 ) -> Option<Result<Vec<&'a Found>, &'a Failure>> {
     let study: &Table<ShakenRun> = context.studies.lanes.study()?;
-    let wanted = runs(context.view)?;
+    let wanted = runs(context.view, context.bench)?;
     (study.asked() == wanted.asked()).then(|| study.found().flatten().collect())
 }
 
 /// What the runs so far say.
 pub(in crate::app::panels) fn summary(context: &Context<'_>) -> Option<ShakeAnswer> {
-    question(context.view).1.summary(&found(context)?.ok()?)
+    question(context.view, context.bench)?.1.summary(&found(context)?.ok()?)
 }
 
-/// Draws the card.
+/// Why there is nothing to show yet.
+pub(in crate::app::panels) fn waiting(context: &Context<'_>) -> &'static str {
+    let brought = motion(context.view, context.bench, context.view.design.shake.level).is_some();
+    if brought { tr("computing") } else { tr("waits for a recording") }
+}
+
+/// Draws the card of the page Shake.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     Card::new(tr("The base is shaken")).hugging().show(ui, |ui| {
-        controls(context, ui);
+        shaken_by::choose(context, ui, false);
+        shaken_by::controls(context, ui);
         ui.add_space(4.0);
         sentence(context, ui);
     });
 }
 
-fn controls(context: &mut Context<'_>, ui: &mut Ui) {
-    let before = context.view.design.shake;
-    let mut shake = before;
-    let (mut from, mut to) = band(context.view);
-    let mut lasts = duration(context.view);
-    ui.horizontal_wrapped(|ui| {
-        let kinds = [(ShakenBy::Noise, tr("noise")), (ShakenBy::Chirp, tr("chirp up and down"))];
-        if chips(ui, tr("Shaken by"), &mut shake.by, &kinds) {
-            shake.duration = None;
-        }
-        match shake.by {
-            ShakenBy::Noise => {
-                if ui.button(tr("Another noise")).clicked() {
-                    shake.seed = (shake.seed + 1) % 1000;
-                }
+/// Draws what stands in the verdict's place where the base is shaken so on other tabs.
+pub(in crate::app::panels) fn in_place_of_verdict(context: &mut Context<'_>, ui: &mut Ui) {
+    Card::new("").hugging().show(ui, |ui| sentence(context, ui));
+}
+
+/// Draws what stands in the verdict's place on the Live tab: what shakes the base, and where it is in that.
+pub(in crate::app::panels) fn while_live(context: &mut Context<'_>, ui: &mut Ui) {
+    let weak = theme::tokens(ui).text_weak;
+    Card::new("").hugging().show(ui, |ui| {
+        let (text, more) = match context.live.shaken() {
+            None => (waiting(context).to_owned(), String::new()),
+            Some((shaking, time)) => {
+                (now_shaken(context, &shaking.motion, time), anew(shaking.duration(), time))
             }
-            ShakenBy::Chirp => {
-                let scales = [(false, tr("Hz a second")), (true, tr("octaves a second"))];
-                chips(ui, tr("Speed"), &mut shake.octaves, &scales);
-            }
-        }
-        let own = shake.band.is_some() || shake.duration.is_some();
-        if ui.add_enabled(own, egui::Button::new(tr("Usual band"))).clicked() {
-            (shake.band, shake.duration) = (None, None);
-        }
-    });
-    let name = if shake.by == ShakenBy::Noise { tr("Level, rms") } else { tr("Level, peak") };
-    let first = from.min(to);
-    let room = ui.available_width();
-    let side_by_side = 0.5 * (room - ui.spacing().item_spacing.x);
-    let width = if side_by_side >= SLIDER { side_by_side } else { room };
-    ui.horizontal_wrapped(|ui| {
-        let slider = |ui: &mut Ui, name: &str, value: &mut f64, range: (f64, f64), unit: &str| {
-            *value = round_significant(*value, 4);
-            ui.allocate_ui(egui::vec2(width.floor(), 26.0), |ui| {
-                let slider = ParameterSlider::new(name, "", value, range.0..=range.1);
-                slider.logarithmic().unit(unit).compact().show(ui).changed
-            })
-            .inner
         };
-        slider(ui, name, &mut shake.level, (LEVELS.0.max(1e-4), LEVELS.1.min(10.0)), "g");
-        let usual = (0.05 * first, 50.0 * first);
-        let changed =
-            slider(ui, tr("From"), &mut from, usual, "Hz") | slider(ui, tr("To"), &mut to, usual, "Hz");
-        if changed {
-            shake.band = Some((from, to));
-        }
-        let longest = (DURATIONS.0.max(0.1 * lasts), DURATIONS.1.min(10.0 * lasts));
-        if slider(ui, tr("Duration"), &mut lasts, longest, "s") {
-            shake.duration = Some(lasts);
-        }
+        ui.add(egui::Label::new(RichText::new(text)).wrap());
+        ui.add(egui::Label::new(RichText::new(more).small().color(weak)).wrap());
     });
-    if shake != before {
-        look(context, shake);
+}
+
+fn now_shaken(context: &Context<'_>, motion: &BaseMotion, time: f64) -> String {
+    let number = |value: f64| significant(value, 3);
+    match motion {
+        BaseMotion::Chirp(chirp) => fill(
+            "The base is shaken by a sine of {level} g, now at {frequency} Hz.",
+            &[("level", &number(chirp.acceleration)), ("frequency", &number(chirp.frequency(time)))],
+        ),
+        BaseMotion::Noise(_) => {
+            let (from, to) = band(context.view);
+            fill(
+                "The base is shaken by noise of {level} g rms between {from} and {to} Hz: nothing repeats.",
+                &[
+                    ("level", &number(context.view.design.shake.level)),
+                    ("from", &number(from)),
+                    ("to", &number(to)),
+                ],
+            )
+        }
+        BaseMotion::Recorded(_) => {
+            let name = context.view.design.shake.recording.as_ref().map_or("", |named| &named.name);
+            fill("The base is shaken as recorded in {name}.", &[("name", &name)])
+        }
     }
 }
 
-fn look(context: &mut Context<'_>, shake: ShakeView) {
-    context.redesign(|design| design.shake = shake);
+fn anew(duration: f64, time: f64) -> String {
+    fill(
+        "{time} s of {duration} s, then it begins anew.",
+        &[("time", &format!("{time:.1}")), ("duration", &significant(duration, 4))],
+    )
 }
 
 /// `12.3 µW (± 3 %)`, without the error where there is none.
@@ -125,8 +125,9 @@ fn sentence(context: &Context<'_>, ui: &mut Ui) {
         Some(Err(failure)) => return line(ui, say(failure), tokens.danger),
         None => Vec::new(),
     };
-    let Some(answer) = question(context.view).1.summary(&found) else {
-        return line(ui, tr("computing").to_owned(), tokens.text_weak);
+    let answer = question(context.view, context.bench).and_then(|(_, shake)| shake.summary(&found));
+    let Some(answer) = answer else {
+        return line(ui, waiting(context).to_owned(), tokens.text_weak);
     };
     let ended = |word: &str, at: f64| {
         let time = significant(at, 3);
@@ -139,19 +140,23 @@ fn sentence(context: &Context<'_>, ui: &mut Ui) {
     if answer.outcome != "completed" {
         line(ui, ended(answer.outcome, answer.t_outcome), tokens.danger);
     }
-    let noise = context.view.design.shake.by == ShakenBy::Noise;
+    let by = context.view.design.shake.by;
+    let noise = by == ShakenBy::Noise;
     if let (Some(own), Some(linear)) = (&answer.measured, &answer.linear) {
         let values = [power(own), power(linear)];
-        let text = if noise {
-            fill(
+        let values = [("own", &values[0] as &dyn Say), ("linear", &values[1])];
+        let text = match by {
+            ShakenBy::Noise => fill(
                 "On average it gives {own}; without its magnets, under the same noise, {linear}.",
-                &[("own", &values[0]), ("linear", &values[1])],
-            )
-        } else {
-            fill(
-                "Over the whole chirp it gives {own} on average; without its magnets {linear}.",
-                &[("own", &values[0]), ("linear", &values[1])],
-            )
+                &values,
+            ),
+            ShakenBy::Chirp => {
+                fill("Over the whole chirp it gives {own} on average; without its magnets {linear}.", &values)
+            }
+            ShakenBy::Recorded => fill(
+                "Over the whole recording it gives {own} on average; without its magnets {linear}.",
+                &values,
+            ),
         };
         line(ui, text, tokens.text);
     }
@@ -180,10 +185,11 @@ fn sentence(context: &Context<'_>, ui: &mut Ui) {
         line(ui, text, tokens.text);
     }
     let unfinished = context.studies.lanes.study::<Table<ShakenRun>>().filter(|study| !study.finished());
-    let text = match (unfinished, noise) {
+    let text = match (unfinished, by) {
         (Some(study), _) => super::super::computing(study.progress()),
-        (None, true) => tr("Under noise nothing repeats: there is no verdict, no Poincaré map and no branch, only means with their errors.").to_owned(),
-        (None, false) => tr("Where the motion jumps up and where it jumps down differ: that is hysteresis.").to_owned(),
+        (None, ShakenBy::Noise) => tr("Under noise nothing repeats: there is no verdict, no Poincaré map and no branch, only means with their errors.").to_owned(),
+        (None, ShakenBy::Chirp) => tr("Where the motion jumps up and where it jumps down differ: that is hysteresis.").to_owned(),
+        (None, ShakenBy::Recorded) => tr("One recording is one sample: how much of these means is chance cannot be known from it.").to_owned(),
     };
     line(ui, text, tokens.text_weak);
 }

@@ -135,3 +135,24 @@ fn a_load_is_read_in_the_unit_that_suits_it() {
     desk.work(2);
     assert!(shown(&desk, "30.39 kΩ"), "{:?}", desk.harness.texts);
 }
+
+#[test]
+fn in_place_of_the_sine_noise_shakes_explore_and_the_verdict_steps_aside() {
+    let stored = r#"{"scenario":{"model":{"force":"exact"},"parameters":{"alpha":0.005}},"design":{"shake":{"duration":20}}}"#;
+    let mut desk = Desk::new(1440.0, 900.0, stored);
+    desk.work(3);
+    desk.harness.find(Role::Button, "Enlarge: Poincaré map");
+    let noise = desk.harness.find(Role::RadioButton, "Shaken by: noise").bounds.center();
+    let Desk { app, harness } = &mut desk;
+    harness.click(noise, |ui| app.ui(ui));
+    desk.work(20);
+    for card in ["Voltage over time", "Spectrogram of the voltage", "Mean power so far"] {
+        desk.harness.find(Role::Button, &format!("Enlarge: {card}"));
+    }
+    assert!(!desk.harness.nodes.iter().any(|node| node.label == "Enlarge: Poincaré map"));
+    desk.harness.find(Role::Label, "Under noise nothing repeats");
+    // Elsewhere the sine stays.
+    desk.app.view.tab = crate::app::view::Tab::Stability;
+    desk.work(3);
+    assert!(!desk.harness.nodes.iter().any(|node| node.label == "Shaken by: noise"));
+}

@@ -15,7 +15,7 @@ const TILE: f32 = 140.0;
 
 /// Time, periods, means and the speed.
 pub(super) fn show(context: &Context<'_>, ui: &mut Ui) {
-    let Some((system, _, now)) = context.live.now() else { return };
+    let (Some((_, _, now)), Some(period)) = (context.live.now(), context.live.period()) else { return };
     let units = si(context);
     // Voltages of a tip that has flown off mean nothing.
     let lost = matches!(context.live.ended, Some(End::Outcome(_)));
@@ -36,7 +36,6 @@ pub(super) fn show(context: &Context<'_>, ui: &mut Ui) {
             (significant(factor * watts, 3), format!("{name}W"))
         }
     };
-    let period = system.parameters.period();
     let cycle = match units {
         Some(units) => fill("of {period} s each", &[("period", &short(period * units.time))]),
         None => fill("of {period} each", &[("period", &short(period))]),

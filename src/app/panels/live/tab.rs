@@ -3,6 +3,7 @@
 use egui::{Ui, vec2};
 
 use super::controls;
+use crate::app::panels::design::shaking;
 use crate::app::panels::grid::{GAP, LEAST_HEIGHT, TWO_COLUMNS, place};
 use crate::app::panels::spec::Place;
 use crate::app::panels::{Context, list, plots, verdict};
@@ -12,7 +13,11 @@ const FIRST: f32 = 0.42;
 
 /// Draws the tab: the first panel as wide as the page, the others below it, side by side.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    verdict::show(context, ui);
+    if context.view.shaken().is_some() {
+        shaking::while_live(context, ui);
+    } else {
+        verdict::show(context, ui);
+    }
     ui.add_space(GAP - ui.spacing().item_spacing.y);
     controls::show(context, ui);
     ui.add_space(GAP);

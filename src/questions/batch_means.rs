@@ -1,0 +1,110 @@
+//! What runs under shaking say together: means with standard errors from batches of each.
+//!
+//! Reference: Law & Kelton, "Simulation Modeling and Analysis", section 9.5.3, batch means.
+
+use nanoserde::{DeBin, SerBin};
+use serde::Serialize;
+
+use super::shaken_run::Found;
+use crate::dynamics::integration::shaken::PARTS;
+
+/// Times of decay that a batch takes at least, so that batches hardly know of one another.
+const BATCH: f64 = 5.0;
+/// Fewest batches whose scatter says anything.
+const LEAST_BATCHES: usize = 4;
+
+/// What was measured under the shaking, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, SerBin, DeBin)]
+pub struct Harvested {
+    /// Root mean square of the voltage (V).
+    pub v_rms: f64,
+    /// Largest |v| (V).
+    pub v_peak: f64,
+    /// Mean power in the load (W).
+    pub power: f64,
+    /// Standard error of that mean (W), by batches over all realisations; absent where the run is no sample of a longer one,
+    /// or too short.
+    pub power_error: Option<f64>,
+    /// Lowest and highest displacement of the tip (mm).
+    pub tip: (f64, f64),
+    /// Largest |slope| at the tip (rad).
+    pub slope: f64,
+    /// Mean power that the base puts in (W).
+    pub input: f64,
+}
+
+/// Duration (s), integral of the voltage's square (V^2 s) and work of the base (J) of a run in batches that hardly know of one
+/// another.
+fn batches(run: &Found) -> Vec<[f64; 3]> {
+    let counted = run.counted();
+    let part = run.end / PARTS as f64;
+    let length = (BATCH * run.decay / part).ceil().clamp(1.0, counted.len() as f64) as usize;
+    let whole = counted.len() / length;
+    let sum = |parts: &[(f64, f64, f64)]| {
+        parts.iter().fold([0.0; 3], |[duration, square, input], (t, s, i)| {
+            [duration + t, square + t * s, input + t * i]
+        })
+    };
+    // What is left over goes to the last one.
+    (0..whole)
+        .map(|i| sum(&counted[i * length..if i + 1 == whole { counted.len() } else { (i + 1) * length }]))
+        .collect()
+}
+
+/// Means and extremes of runs; `None` of none.
+pub fn measured(runs: &[&Found], stationary: bool) -> Option<Harvested> {
+    let first = runs.first()?;
+    let batches: Vec<[f64; 3]> = runs.iter().flat_map(|run| batches(run)).collect();
+    let [duration, square, work] =
+        batches.iter().fold([0.0; 3], |sum, batch| [0, 1, 2].map(|i| sum[i] + batch[i]));
+    let (power, watts) = (first.watts * square / duration, first.watts);
+    let extreme = |of: fn(&Found) -> f64| runs.iter().map(|run| of(run)).fold(f64::NEG_INFINITY, f64::max);
+    Some(Harvested {
+        v_rms: (square / duration).sqrt(),
+        v_peak: extreme(|run| run.v_peak),
+        power,
+        power_error: ratio_error(
+            &batches.iter().map(|batch| (watts * batch[1], batch[0])).collect::<Vec<_>>(),
+            stationary,
+        ),
+        tip: (-extreme(|run| -run.tip.0), extreme(|run| run.tip.1)),
+        slope: extreme(|run| run.slope),
+        input: work / duration,
+    })
+}
+
+/// Power of the first over that of the second of each pair, and its standard error; both felt the same.
+pub fn gain(pairs: &[(&Found, &Found)], stationary: bool) -> Option<(f64, Option<f64>)> {
+    let mut both = Vec::new();
+    for (own, linear) in pairs {
+        // Batches of the same times: as long as the longer of the two asks for.
+        let longer = if own.decay >= linear.decay { own } else { linear };
+        let count = batches(longer).len();
+        let split = |run: &Found| -> Vec<f64> {
+            let counted =
+                &run.counted()[run.counted().len() - longer.counted().len().min(run.counted().len())..];
+            let length = counted.len() / count;
+            let end = |i: usize| if i + 1 == count { counted.len() } else { (i + 1) * length };
+            let square = |i: usize| counted[i * length..end(i)].iter().map(|(t, s, _)| t * s).sum();
+            (0..count).map(square).collect()
+        };
+        both.extend(split(own).into_iter().zip(split(linear)));
+    }
+    let (own, linear) = both.iter().fold((0.0, 0.0), |sum, pair| (sum.0 + pair.0, sum.1 + pair.1));
+    let delivers = pairs.iter().all(|(own, _)| own.watts > 0.0);
+    (delivers && linear > 0.0).then(|| (own / linear, ratio_error(&both, stationary)))
+}
+
+/// Standard error of the sum of the first over the sum of the second of each pair, from the scatter about it.
+///
+/// Reference: Cochran, "Sampling Techniques" (1977), section 6.4, ratio estimate.
+fn ratio_error(pairs: &[(f64, f64)], stationary: bool) -> Option<f64> {
+    let count = pairs.len() as f64;
+    let (above, below) = pairs.iter().fold((0.0, 0.0), |sum, pair| (sum.0 + pair.0, sum.1 + pair.1));
+    if !stationary || pairs.len() < LEAST_BATCHES || !(below > 0.0) {
+        return None;
+    }
+    let ratio = above / below;
+    let scatter = pairs.iter().map(|(a, b)| (a - ratio * b).powi(2)).sum::<f64>();
+    Some((scatter * count / (count - 1.0)).sqrt() / below)
+}
