@@ -12,6 +12,8 @@ use crate::dynamics::integration::shaken::PARTS;
 const BATCH: f64 = 5.0;
 /// Fewest batches whose scatter says anything.
 const LEAST_BATCHES: usize = 4;
+/// Fewest into which batches are put together to see whether they know of one another.
+const LEAST_BLOCKS: usize = 12;
 
 /// What was measured under the shaking, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, SerBin, DeBin)]
@@ -95,16 +97,61 @@ pub fn gain(pairs: &[(&Found, &Found)], stationary: bool) -> Option<(f64, Option
     (delivers && linear > 0.0).then(|| (own / linear, ratio_error(&both, stationary)))
 }
 
-/// Standard error of the sum of the first over the sum of the second of each pair, from the scatter about it.
+/// Standard error of the sum of the first over the sum of the second of each pair, from the scatter about it. Batches that do
+/// know of one another, as where a motion changes wells or swells slowly, scatter less than they should: so neighbours are put
+/// together, again and again, and the largest error counts.
 ///
-/// Reference: Cochran, "Sampling Techniques" (1977), section 6.4, ratio estimate.
+/// Reference: Cochran, "Sampling Techniques" (1977), section 6.4, ratio estimate; Flyvbjerg & Petersen, J. Chem. Phys. 91, 461
+/// (1989), blocks.
 fn ratio_error(pairs: &[(f64, f64)], stationary: bool) -> Option<f64> {
+    if !stationary || pairs.len() < LEAST_BATCHES {
+        return None;
+    }
+    let mut pairs = pairs.to_vec();
+    let mut largest = scatter(&pairs)?;
+    while pairs.len() >= 2 * LEAST_BLOCKS {
+        pairs =
+            pairs.chunks(2).map(|two| two.iter().fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))).collect();
+        largest = largest.max(scatter(&pairs)?);
+    }
+    Some(largest)
+}
+
+/// That error, where the pairs know nothing of one another.
+fn scatter(pairs: &[(f64, f64)]) -> Option<f64> {
     let count = pairs.len() as f64;
     let (above, below) = pairs.iter().fold((0.0, 0.0), |sum, pair| (sum.0 + pair.0, sum.1 + pair.1));
-    if !stationary || pairs.len() < LEAST_BATCHES || !(below > 0.0) {
+    if !(below > 0.0) {
         return None;
     }
     let ratio = above / below;
-    let scatter = pairs.iter().map(|(a, b)| (a - ratio * b).powi(2)).sum::<f64>();
-    Some((scatter * count / (count - 1.0)).sqrt() / below)
+    let square = pairs.iter().map(|(a, b)| (a - ratio * b).powi(2)).sum::<f64>();
+    Some((square * count / (count - 1.0)).sqrt() / below)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_memory_makes_the_error_as_large_as_it_is() {
+        // Each value keeps 0.8 of the one before: the mean of n has the variance sigma^2 (1 + 0.8)/(1 - 0.8)/n.
+        let mut random = fastrand::Rng::with_seed(3);
+        let (count, kept) = (8192, 0.8_f64);
+        let mut value = 0.0;
+        let pairs: Vec<(f64, f64)> = (0..count)
+            .map(|_| {
+                value = kept * value + random.f64() - 0.5;
+                (10.0 + value, 1.0)
+            })
+            .collect();
+        let variance = 1.0 / 12.0 / (1.0 - kept * kept);
+        let expected = (variance * (1.0 + kept) / (1.0 - kept) / f64::from(count)).sqrt();
+        let found = ratio_error(&pairs, true).expect("an error");
+        assert!((0.8..1.7).contains(&(found / expected)), "{found} {expected}");
+        assert!(scatter(&pairs).is_some_and(|naive| naive < 0.4 * expected));
+        assert_eq!(ratio_error(&pairs, false), None);
+        assert_eq!(ratio_error(&pairs[..LEAST_BATCHES - 1], true), None);
+        assert_eq!(ratio_error(&[(1.0, 0.0); 8], true), None);
+    }
 }

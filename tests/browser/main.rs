@@ -19,6 +19,7 @@ mod offline;
 mod page;
 mod phone;
 mod server;
+mod shaken;
 mod share;
 mod stability;
 mod wheel;

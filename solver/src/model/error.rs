@@ -156,13 +156,14 @@ impl ModelError {
         (minimum, maximum): (f64, f64),
         unit: &'static str,
     ) -> Result<f64, Self> {
+        if value.is_finite() && value >= minimum && value <= maximum {
+            return Ok(value);
+        }
         let field = field.to_owned();
-        if !value.is_finite() {
-            Err(Self::NotFinite { field, minimum, maximum, unit })
-        } else if value < minimum || value > maximum {
+        if value.is_finite() {
             Err(Self::OutOfRange { field, value, minimum, maximum, unit })
         } else {
-            Ok(value)
+            Err(Self::NotFinite { field, minimum, maximum, unit })
         }
     }
 }

@@ -10,8 +10,10 @@ use crate::app::theme;
 use crate::app::view::Tab;
 use crate::app::widgets::touch;
 
-/// Share of the room that the plot takes, at least and at most so high, and what is left for a slider all the same.
+/// Share of the room that the plot takes, and beside a lesson, at least and at most so high, and what is left for a slider all
+/// the same.
 const SHARE: f32 = 0.5;
+const SHARE_IN_LESSON: f32 = 0.58;
 const LEAST: f32 = 150.0;
 const MOST: f32 = 340.0;
 const SLIDER: f32 = 110.0;
@@ -25,7 +27,8 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     }
     context.on_top = Some(ui.available_rect_before_wrap());
     let room = ui.available_height();
-    let height = (SHARE * room).clamp(LEAST, MOST).min(room - SLIDER).max(0.0);
+    let share = if context.view.lesson.is_some() { SHARE_IN_LESSON } else { SHARE };
+    let height = (share * room).clamp(LEAST, MOST).min(room - SLIDER).max(0.0);
     let margin = Margin { left: 12, right: 12, top: 8, bottom: 0 };
     let panel = Panel::top("on top").exact_size(height).resizable(false).show_separator_line(false);
     let frame = Frame::new().fill(theme::tokens(ui).page).inner_margin(margin);

@@ -161,13 +161,17 @@ fn label_regions(
         Resonance::Sum => tr("combination"),
         Resonance::First | Resonance::Second => tr("period doubling"),
     };
+    let mut taken = Vec::new();
     for tongue in &boundaries.tongues {
         let lowest =
             tongue.coupled.iter().filter(|point| point.y.is_finite()).min_by(|a, b| a.y.total_cmp(&b.y));
         let Some(tip) = lowest.filter(|tip| tip.y < 0.8 * ceiling) else { continue };
         if window == MapWindow::All || window.resonance() == Some(tongue.resonance) {
             let height = tip.y + 0.82 * (ceiling - tip.y);
-            plot_style::labelled_place(plot, name(tongue.resonance), [tip.x, height], kind);
+            let (name, place) = (name(tongue.resonance), [tip.x, height]);
+            if plot_style::has_room(plot, name, place, &mut taken) {
+                plot_style::labelled_place(plot, name, place, kind);
+            }
         }
     }
 }

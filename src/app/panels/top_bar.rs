@@ -39,9 +39,12 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
                     status(context, ui, if width < PHONE { sign } else { badge });
                 });
             });
-            egui::ScrollArea::horizontal()
-                .scroll_bar_visibility(SCROLL_BAR)
-                .show(ui, |ui| choose_tab(context, ui));
+            // The steps of a lesson bring their tabs along, and the plot needs the room.
+            if context.view.lesson.is_none() {
+                egui::ScrollArea::horizontal()
+                    .scroll_bar_visibility(SCROLL_BAR)
+                    .show(ui, |ui| choose_tab(context, ui));
+            }
         });
     } else {
         ui.horizontal(|ui| {

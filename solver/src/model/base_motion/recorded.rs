@@ -55,7 +55,7 @@ impl Recorded {
         }
         for (i, a) in acceleration.iter().enumerate() {
             let (_, most) = ACCELERATIONS;
-            ModelError::check(&format!("acceleration[{i}]"), *a, (-most, most), " g")?;
+            entry("acceleration", i, *a, (-most, most), " g")?;
         }
         let interval = self.median_interval()?;
         let mean = if self.remove_mean { acceleration.iter().sum::<f64>() / value as f64 } else { 0.0 };
@@ -87,7 +87,7 @@ impl Recorded {
     pub fn median_interval(&self) -> Result<f64, ModelError> {
         let mut lowest = -DURATIONS.1;
         for (i, t) in self.time.iter().enumerate() {
-            ModelError::check(&format!("time[{i}]"), *t, (lowest, DURATIONS.1), " s")?;
+            entry("time", i, *t, (lowest, DURATIONS.1), " s")?;
             lowest = t.next_up();
         }
         let mut intervals: Vec<f64> = self.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -96,7 +96,7 @@ impl Recorded {
         let median = *median;
         for (i, pair) in self.time.windows(2).enumerate() {
             let most = pair[0] + LONGEST_GAP * median;
-            ModelError::check(&format!("time[{}]", i + 1), pair[1], (pair[0], most), " s")?;
+            entry("time", i + 1, pair[1], (pair[0], most), " s")?;
         }
         let span = self.time[self.time.len() - 1] - self.time[0];
         let most = median * MOST_SAMPLES as f64;
@@ -125,6 +125,20 @@ impl Recorded {
         };
         (0..=count.max(DERIVATIVES)).map(|i| at((begin + interval * i as f64).min(time[last]))).collect()
     }
+}
+
+/// Checks an entry of a list; its name is made only where it is needed, as there may be millions.
+fn entry(
+    list: &str,
+    i: usize,
+    value: f64,
+    (low, high): (f64, f64),
+    unit: &'static str,
+) -> Result<(), ModelError> {
+    if (low..=high).contains(&value) {
+        return Ok(());
+    }
+    ModelError::check(&format!("{list}[{i}]"), value, (low, high), unit).map(|_| ())
 }
 
 /// Samples so far apart (s), without what is above `highest` (Hz), and how far apart the new ones are. Samples that hold nothing
