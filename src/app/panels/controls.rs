@@ -13,30 +13,21 @@ use crate::model::{Parameter, ParameterSet, Part, Units};
 
 /// Draws the column.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
-    shaken_by(context, ui);
-    changed_most(context, ui);
+    above(context, ui);
     ui.add_space(4.0);
     below(context, ui);
 }
 
 /// What stands above the plots where there is one column: what is changed most.
 pub(in crate::app) fn above(context: &mut Context<'_>, ui: &mut Ui) {
-    changed_most(context, ui);
-    shaken_by(context, ui);
-}
-
-/// What shakes the base, where that is a choice: lessons are about the sine.
-fn shaken_by(context: &mut Context<'_>, ui: &mut Ui) {
+    let in_si = device::is_shown(context.view);
     let is_shaken = context.view.shaken().is_some();
+    // Lessons are about the sine.
     let may_be = matches!(context.view.tab, Tab::Explore | Tab::Live) && context.view.lesson.is_none();
     if is_shaken || may_be {
         shaken_by::choose(context, ui, true);
     }
-}
-
-fn changed_most(context: &mut Context<'_>, ui: &mut Ui) {
-    let in_si = device::is_shown(context.view);
-    if context.view.shaken().is_some() {
+    if is_shaken {
         shaken_by::controls(context, ui);
         if !in_si {
             main_controls(context, ui, &[Parameter::Alpha]);
