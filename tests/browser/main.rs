@@ -22,6 +22,7 @@ mod server;
 mod shaken;
 mod share;
 mod stability;
+mod stage;
 mod wheel;
 
 use std::{collections::BTreeSet, env, fs, io::Write as _, thread::sleep, time::Duration};

@@ -73,7 +73,12 @@ pub(crate) fn dist() -> PathBuf {
 impl Page {
     /// Opens the page and waits until it is drawn.
     pub(crate) fn open(width: u32, height: u32, theme: Theme) -> Self {
-        Self::open_in(Box::new(Chromium::start()), &dist(), width, height, theme)
+        Self::open_at(&dist(), width, height, theme)
+    }
+
+    /// Opens the page of a folder.
+    pub(crate) fn open_at(root: &Path, width: u32, height: u32, theme: Theme) -> Self {
+        Self::open_in(Box::new(Chromium::start()), root, width, height, theme)
     }
 
     /// Opens the page of a folder in Firefox, where sizes are those of the window.
