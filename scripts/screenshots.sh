@@ -4,6 +4,7 @@
 #   scripts/screenshots.sh                      the newest of `make dev` and `make build`, in the usual sizes
 #   scripts/screenshots.sh state.json           loads a scenario first
 #   NAME=sweep CLICK=Sweep scripts/screenshots.sh          clicks what is labelled so first (a,b,c: in turn)
+#   DROP=measured.csv scripts/screenshots.sh    drops a file on the page first
 #   SIZES="1440x900-dark 360x760-light" SETTLE_MS=2000 scripts/screenshots.sh
 #   DIST=dist scripts/screenshots.sh            that build and no other
 set -euo pipefail
@@ -28,6 +29,7 @@ fi
 echo "page: $dist"
 
 [ -z "${1:-}" ] || export HARVESTER_LOAD="$1"
+[ -z "${DROP:-}" ] || export HARVESTER_DROP="$DROP"
 [ -z "${CLICK:-}" ] || export HARVESTER_CLICK="$CLICK"
 [ -z "${NAME:-}" ] || export HARVESTER_NAME="$NAME"
 [ -z "${SIZES:-}" ] || export HARVESTER_SIZES="$SIZES"

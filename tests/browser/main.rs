@@ -25,6 +25,7 @@ mod stability;
 mod stage;
 mod wheel;
 
+use std::path::PathBuf;
 use std::{collections::BTreeSet, env, fs, io::Write as _, thread::sleep, time::Duration};
 
 use flate2::{Compression, write::GzEncoder};
@@ -226,6 +227,10 @@ fn screenshots() {
     if let Some(file) = env::var_os("HARVESTER_LOAD") {
         let json = fs::read_to_string(&file).expect("the scenario");
         page.call("load", &json).expect("load() takes the scenario");
+    }
+    if let Some(file) = env::var_os("HARVESTER_DROP").map(PathBuf::from) {
+        let name = file.file_name().and_then(|name| name.to_str()).expect("a name");
+        share::drop_file(&page, name, &fs::read_to_string(&file).expect("the file to drop"));
     }
     for label in env::var("HARVESTER_CLICK").iter().flat_map(|labels| labels.split(',')) {
         let control = page.find(label, &[]);
