@@ -19,6 +19,7 @@ use crate::questions::design::point::powers;
 use crate::questions::design::{Bounds, HarvestPoint, Interval};
 use crate::questions::harvest::HarvestStudy;
 use crate::questions::sweep::Direction;
+use crate::scheduler::Study as _;
 
 /// Least power (W) on the slider.
 const LEAST: f64 = 1e-9;
@@ -45,18 +46,34 @@ fn curves(study: &HarvestStudy) -> [(&'static str, Vec<Vec<HarvestPoint>>); 5] {
     ]
 }
 
-fn highest(pieces: &[Vec<HarvestPoint>]) -> Option<HarvestPoint> {
+/// The curve that says what the device gives: its stable periodic motions, or where there are none what rest leads to;
+/// none until that is known.
+pub(super) fn best_curve(study: &HarvestStudy) -> Option<Vec<Vec<HarvestPoint>>> {
+    let stable = study.stable_pieces();
+    if !stable.is_empty() {
+        return Some(stable);
+    }
+    study.finished().then(|| study.rest_pieces())
+}
+
+/// Whether a frequency (Hz) is an end of the window, beyond which what meets it may go on.
+pub(super) fn at_end(study: &HarvestStudy, hertz: f64) -> bool {
+    let (low, high) = study.window();
+    (hertz - low).min(high - hertz) < 1e-6 * (high - low)
+}
+
+pub(super) fn highest(pieces: &[Vec<HarvestPoint>]) -> Option<HarvestPoint> {
     pieces.iter().flatten().copied().max_by(|a, b| a.measures.power.total_cmp(&b.measures.power))
 }
 
 /// Where a curve gives enough, and where it does so within the limits.
-struct Enough {
-    bands: Vec<Interval>,
+pub(super) struct Enough {
+    pub bands: Vec<Interval>,
     safe: Option<Vec<Interval>>,
 }
 
 impl Enough {
-    fn new(pieces: &[Vec<HarvestPoint>], least: f64, bounds: Option<Bounds>) -> Self {
+    pub(super) fn new(pieces: &[Vec<HarvestPoint>], least: f64, bounds: Option<Bounds>) -> Self {
         let safe = bounds.map(|bounds| usable(&bounds.powers_within(pieces), least));
         Self { bands: usable(&powers(pieces), least), safe }
     }
@@ -66,21 +83,38 @@ impl Enough {
         self.safe.as_deref().filter(|safe| *safe != self.bands.as_slice())
     }
 
-    /// In words, and how they are to be coloured when the limits cut something away.
-    fn in_words(&self, tokens: &Tokens) -> Option<(String, Color32)> {
+    /// In words, when the limits cut something away.
+    pub(super) fn in_words(&self, study: &HarvestStudy) -> Option<String> {
         Some(match self.cut()? {
-            [] => (tr("none of it within the limits").to_owned(), tokens.danger),
-            safe => (fill("within the limits: {what}", &[("what", &list(safe, ", "))]), tokens.warning),
+            [] => tr("none of it within the limits").to_owned(),
+            safe => fill("within the limits: {what}", &[("what", &hertz_list(study, safe))]),
         })
+    }
+
+    /// How its width is to be coloured.
+    fn colour(&self, tokens: &Tokens) -> Color32 {
+        match self.cut() {
+            None => tokens.text_strong,
+            Some([]) => tokens.danger,
+            Some(_) => tokens.warning,
+        }
     }
 }
 
-fn list(intervals: &[Interval], between: &str) -> String {
-    intervals.iter().map(interval).collect::<Vec<_>>().join(between)
+/// Intervals of frequency in a row, with a sign where one may go on beyond the window.
+pub(super) fn hertz_list(study: &HarvestStudy, intervals: &[Interval]) -> String {
+    let end = |sign: &str, hertz: f64| {
+        let sign = if at_end(study, hertz) { sign } else { "" };
+        format!("{sign}{}", significant(hertz, 4))
+    };
+    let text = |band: &Interval| {
+        fill("{from} to {to} Hz", &[("from", &end("≤ ", band.from)), ("to", &end("≥ ", band.to))])
+    };
+    intervals.iter().map(text).collect::<Vec<_>>().join(", ")
 }
 
 /// The power (W) that counts as usable: the one chosen, or half of the highest.
-fn least(view: &View, study: &HarvestStudy) -> f64 {
+pub(super) fn least(view: &View, study: &HarvestStudy) -> f64 {
     view.design.least.unwrap_or_else(|| {
         let all = curves(study);
         let top = all
@@ -121,9 +155,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
         let bounds = if index == 0 { bounds.as_ref().map(Bounds::without_magnets) } else { bounds };
         Enough::new(&all[index].1, present, bounds)
     });
-    // What meets an end of the window may go on beyond it.
-    let (low, high) = study.window();
-    let at_end = |hertz: f64| (hertz - low).min(high - hertz) < 1e-6 * (high - low);
+    let at_end = |hertz: f64| at_end(study, hertz);
     ui.spacing_mut().interact_size.y = 18.0;
     Grid::new("bands").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
         for text in ["", tr("highest"), tr("half power"), tr("enough")] {
@@ -151,32 +183,14 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
                 width if bands.is_empty() || width == 0.0 => tr("none").to_owned(),
                 width => format!("{further}{}", hertz(width)),
             };
-            let cut = enough.in_words(tokens);
-            let colour = cut.as_ref().map_or(tokens.text_strong, |(_, colour)| *colour);
-            let label = ui.label(small(&shown).color(colour));
+            let label = ui.label(small(&shown).color(enough.colour(tokens)));
             if !bands.is_empty() {
-                let said = cut.map(|(text, _)| format!("\n{text}")).unwrap_or_default();
-                label.on_hover_text(list(bands, "\n") + &said);
+                let said = enough.in_words(study).map_or(String::new(), |text| format!("\n{text}"));
+                label.on_hover_text(hertz_list(study, bands) + &said);
             }
             ui.end_row();
         }
     });
-    let stable = &enough[1];
-    let power = with_unit(present, "W");
-    let text = if stable.bands.is_empty() {
-        fill("No stable periodic motion gives {power} here.", &[("power", &power)])
-    } else {
-        let list = list(&stable.bands, ", ");
-        fill(
-            "At least {power} over {list} by stable periodic motions.",
-            &[("power", &power), ("list", &list)],
-        )
-    };
-    ui.add_space(2.0);
-    ui.add(egui::Label::new(small(&text).color(tokens.text)).wrap());
-    if let Some((text, colour)) = stable.in_words(tokens) {
-        ui.add(egui::Label::new(small(&text).color(colour)).wrap());
-    }
 }
 
 /// Chooses the power (W) that counts.

@@ -1,6 +1,7 @@
 //! The Design tab: what a device delivers in volts, watts and hertz, within which limits, and what would be better.
 
 pub(super) mod alignment;
+mod answer;
 pub(super) mod bands;
 mod beside;
 mod best_load;

@@ -4,7 +4,10 @@ use egui::Role;
 
 use crate::app::bench::questions;
 use crate::app::rehearsal::Desk;
+use crate::app::session::Status;
 use crate::app::widgets::harness::Node;
+use crate::app::widgets::number::{significant, with_unit};
+use crate::questions::harvest::HarvestStudy;
 
 fn desk(width: f32, page: &str) -> Desk {
     let stored = format!(
@@ -134,4 +137,51 @@ fn a_load_is_read_in_the_unit_that_suits_it() {
     harness.key(egui::Key::Enter, egui::Modifiers::NONE, |ui| app.ui(ui));
     desk.work(2);
     assert!(shown(&desk, "30.39 kΩ"), "{:?}", desk.harness.texts);
+}
+
+/// A page with all of it computed.
+fn computed(width: f32, stored: &str) -> Desk {
+    let mut desk = Desk::new(width, 2400.0, stored);
+    for _ in 0..40_000 {
+        desk.app.logic(&desk.harness.context.clone());
+        if desk.app.session.status() == Status::Done && !desk.app.crew.borrow().is_busy() {
+            desk.app.follow();
+            if !desk.app.crew.borrow().is_busy() {
+                break;
+            }
+        }
+    }
+    desk.work(3);
+    desk
+}
+
+#[test]
+fn one_sentence_says_what_the_device_gives_over_the_window() {
+    let said = |design: &str| {
+        let numbers = r#"{"parameters":{"omega":4.0,"beta":1e-4},"t_end":100}"#;
+        let desk = computed(360.0, &format!(r#"{{"scenario":{numbers},"tab":"design","design":{design}}}"#));
+        let label = desk.harness.find(Role::Label, "Shaken at ").label.clone();
+        let crew = desk.app.crew.borrow();
+        let study: &HarvestStudy = crew.studies.lanes.study().expect("curves");
+        let best = study.stable_pieces().concat().into_iter();
+        let best = best.max_by(|a, b| a.measures.power.total_cmp(&b.measures.power)).expect("a motion");
+        let gives =
+            format!("{} at {} Hz", with_unit(best.measures.power, "W"), significant(best.frequency, 4));
+        assert!(label.contains(&gives), "{label}: {gives}");
+        label
+    };
+    let usual = said(r#"{"window":[1.2,1.6]}"#);
+    for part in [
+        "0.000379 g",
+        " into 7.63 MΩ, ",
+        " or more from 1.4",
+        " model not valid (sags by ",
+        "; without magnets ≥ ",
+    ] {
+        assert!(usual.contains(part), "{usual}: {part}");
+    }
+    let beyond = said(r#"{"window":[1.35,1.45],"least":1e-5,"limits":{"voltage":[5.0,5.0]}}"#);
+    assert!(beyond.contains(", nowhere 10.0 µW or more, unsafe (peak 5.94 V, limit 5.00 V)"), "{beyond}");
+    let cut = said(r#"{"window":[1.35,1.45],"least":1e-6,"limits":{"voltage":[5.0,5.0]}}"#);
+    assert!(cut.contains("limit 5.00 V), within the limits: 1.4"), "{cut}");
 }
