@@ -109,6 +109,23 @@ fn a_report_holds_the_numbers_of_the_scenario() {
 }
 
 #[test]
+fn a_plot_over_logarithmic_frequencies_is_saved_in_hertz_with_round_ticks() {
+    let link = "v=1&alpha=1e-4&beta=1e-4&omega=8.0969&tab=design&design.logarithmic_frequency=true&design.window=1+9";
+    let (mut app, context) = page(link, [1440.0, 900.0]);
+    assert_eq!(app.notice, None);
+    let (_, table) = saved(&mut app, &context, "Over frequency", Format::Csv);
+    let curves = table.lines().filter(|line| !line.starts_with("least power"));
+    let hertz = curves.filter_map(|line| line.split(',').find_map(|field| field.parse::<f64>().ok()));
+    let hertz: Vec<f64> = hertz.collect();
+    let outside = hertz.iter().find(|hertz| !(0.999..=9.001).contains(*hertz));
+    assert!(hertz.len() > 100 && outside.is_none(), "{outside:?}");
+    let (_, drawing) = saved(&mut app, &context, "Over frequency", Format::Svg);
+    for tick in [">2<", ">3<", ">5<"] {
+        assert!(drawing.contains(tick), "{tick}");
+    }
+}
+
+#[test]
 fn what_is_not_there_is_not_saved_and_said() {
     let (mut app, context) = page("v=1", [900.0, 700.0]);
     for title in ["Orbit diagram", "", "no such card"] {

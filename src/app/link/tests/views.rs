@@ -158,7 +158,7 @@ fn design() -> impl Strategy<Value = DesignView> {
         resonance().prop_map(Quantity::Threshold),
     ];
     let front = (select(&PAGES[..]), select(&WATCHED[..]), 1..=8_usize, resonance(), quantity);
-    let flags = any::<[bool; 3]>();
+    let flags = any::<[bool; 4]>();
     let window = option::of((within(FREQUENCIES), within(FREQUENCIES)));
     let watts = (option::of(within(POWERS)), within(DROPS), within(SCATTERS));
     (front, flags, window, watts, limits(), search()).prop_map(
@@ -176,6 +176,7 @@ fn design() -> impl Strategy<Value = DesignView> {
                 holds_acceleration: flags[1],
                 watched,
                 logarithmic: flags[2],
+                logarithmic_frequency: flags[3],
                 window,
                 least,
                 diode_drop,

@@ -241,20 +241,20 @@ fn window(context: &mut Context<'_>, ui: &mut Ui) {
     }
 }
 
-/// Buttons for the windows about the natural frequencies.
+/// Buttons for the windows about the natural frequencies, and for one over all of them.
 fn presets(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(boundaries) = &context.session.boundaries else { return };
     let units = context.view.scenario.units();
-    let first = boundaries.frequencies.first().copied().unwrap_or(4.0);
-    let mut places = vec![(first, "ω₁"), (2.0 * first, "2ω₁")];
-    if let Some(second) = boundaries.frequencies.get(1) {
-        places.push((first + second, "ω₁+ω₂"));
-    }
+    let natural = &boundaries.frequencies;
+    let first = natural.first().copied().unwrap_or(4.0);
+    let last = natural.iter().copied().fold(2.0 * first, f64::max);
+    let sum = natural.get(1).map(|second| (first + second, "ω₁+ω₂"));
+    let places = [(first, "ω₁"), (2.0 * first, "2ω₁")].into_iter().chain(sum);
+    let windows = places.map(|(omega, name)| (name, (0.85 * omega, 1.15 * omega)));
     ui.horizontal_wrapped(|ui| {
-        for (omega, name) in places {
+        for (name, (low, high)) in windows.chain([(tr("all resonances"), (0.7 * first, 1.3 * last))]) {
             if ui.button(RichText::new(name).small()).clicked() {
-                let window = (units.hertz(0.85 * omega), units.hertz(1.15 * omega));
-                context.redesign(|design| design.window = Some(window));
+                context.redesign(|design| design.window = Some((units.hertz(low), units.hertz(high))));
             }
         }
     });

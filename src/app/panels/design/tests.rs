@@ -185,3 +185,48 @@ fn one_sentence_says_what_the_device_gives_over_the_window() {
     let cut = said(r#"{"window":[1.35,1.45],"least":1e-6,"limits":{"voltage":[5.0,5.0]}}"#);
     assert!(cut.contains("limit 5.00 V), within the limits: 1.4"), "{cut}");
 }
+
+#[test]
+fn on_a_logarithmic_axis_frequencies_are_spread_drawn_and_clicked_as_it_says() {
+    let design = r#"{"window":[1.0,9.0],"logarithmic_frequency":true}"#;
+    let numbers = r#"{"parameters":{"omega":15,"beta":1e-4},"t_end":100}"#;
+    let mut desk =
+        Desk::new(1440.0, 900.0, &format!(r#"{{"scenario":{numbers},"tab":"design","design":{design}}}"#));
+    desk.work(30);
+    let (_, question, _) = questions::harvest(&desk.app.view, &desk.app.session);
+    assert!(question.logarithmic);
+    let points = {
+        let crew = desk.app.crew.borrow();
+        crew.studies.lanes.study::<HarvestStudy>().expect("curves").linear_points()
+    };
+    let [first, last] = [points[0].frequency, points[points.len() - 1].frequency];
+    let below = points.iter().filter(|point| point.frequency < (first * last).sqrt()).count();
+    assert!(2 * below > points.len() - 40, "{below} of {} below the middle", points.len());
+    let corner = desk.harness.find(Role::Button, "Enlarge: Over frequency").bounds;
+    let mut clicked = |x: f32| {
+        let Desk { app, harness } = &mut desk;
+        harness.click(egui::pos2(corner.right() - x, corner.bottom() + 150.0), |ui| app.ui(ui));
+        desk.work(2);
+        let view = &desk.app.view;
+        view.scenario.units().hertz(view.scenario.parameters.omega)
+    };
+    let [low, middle, high] = [420.0, 270.0, 120.0].map(&mut clicked);
+    assert!(low > first && high < last && high > 1.5 * low, "{low} {high}");
+    assert!((middle * middle / (low * high) - 1.0).abs() < 2e-3, "{low} {middle} {high}");
+}
+
+#[test]
+fn one_window_holds_all_resonances() {
+    let mut desk = Desk::new(1440.0, 2400.0, r#"{"scenario":{"t_end":100},"tab":"design"}"#);
+    desk.work(3);
+    let button = desk.harness.find(Role::Button, "all resonances").bounds.center();
+    let Desk { app, harness } = &mut desk;
+    harness.click(button, |ui| app.ui(ui));
+    desk.work(2);
+    let (low, high) = questions::window(&desk.app.view, &desk.app.session);
+    let natural = &desk.app.session.boundaries.as_ref().expect("boundaries").frequencies;
+    assert!(
+        natural.len() > 1 && natural.iter().all(|omega| low < 0.9 * omega && high > 1.1 * omega),
+        "{low} {high}"
+    );
+}
