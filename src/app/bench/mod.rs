@@ -7,16 +7,19 @@
 //! answer (the frequency in a curve over frequency, the ceramic in a table of ceramics), so that moving it asks
 //! nothing new. A measured file is read by `bench::measured` for at most 6 ms a frame.
 
+pub(super) mod facts;
 pub(super) mod measured;
 pub(super) mod questions;
 pub(super) mod shaking;
+pub(super) mod variant;
+
+use std::rc::Rc;
 
 use measured::Measured;
+use variant::Variant;
 
 use super::view::View;
 use crate::model::{Device, Dimension, ElectricalScaling, Limits, ModelError};
-use crate::questions::design::Operating;
-use crate::questions::harvest::HarvestStudy;
 use crate::scenario::{ModelChoice, Scenario};
 use crate::sentence::Sentence;
 
@@ -29,16 +32,8 @@ pub(super) struct Bench {
     pub measured: Measured,
     /// Modes and force law before the present ones.
     pub before: ModelChoice,
-    /// Curves and numbers kept to compare with.
-    pub pinned: Option<Box<Pinned>>,
-}
-
-/// A device that was pinned.
-pub(super) struct Pinned {
-    /// What it delivers over frequency, if that was known.
-    pub harvest: Option<HarvestStudy>,
-    /// What it delivers as it was.
-    pub operating: Option<Operating>,
+    /// Designs kept to compare with.
+    pub variants: Rc<Vec<Variant>>,
 }
 
 /// Relative difference below which two dimensions are the same but for rounding.

@@ -109,12 +109,6 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
         }
     }
     let measured = super::measured::over_frequency(context, watched, &measure);
-    let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.harvest.as_ref());
-    for (kind, _, points) in kept.map_or_else(Vec::new, self::curves) {
-        if matches!(kind, Series::Stable | Series::FromRest) {
-            drawn.push((Series::Ghost, tr("pinned"), measure.line(&points, 0)));
-        }
-    }
     let x = measure.frequency();
     let units = view.scenario.units();
     let (low, high) = study.window();

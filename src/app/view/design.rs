@@ -32,6 +32,8 @@ pub enum Page {
     Measured,
     /// Shaken by chirps and noise.
     Shake,
+    /// Pinned designs side by side.
+    Variants,
 }
 
 /// What is drawn over frequency.

@@ -139,7 +139,7 @@ fn search() -> impl Strategy<Value = SearchView> {
 }
 
 fn design() -> impl Strategy<Value = DesignView> {
-    const PAGES: [Page; 7] = [
+    const PAGES: [Page; 8] = [
         Page::Harvest,
         Page::Load,
         Page::Materials,
@@ -147,6 +147,7 @@ fn design() -> impl Strategy<Value = DesignView> {
         Page::Search,
         Page::Tolerances,
         Page::Measured,
+        Page::Variants,
     ];
     const WATCHED: [Watched; 5] =
         [Watched::Power, Watched::PerG2, Watched::Voltage, Watched::Peak, Watched::Tip];

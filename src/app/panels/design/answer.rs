@@ -3,10 +3,11 @@
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, Ui};
 
-use super::bands::{Enough, at_end, best_curve, hertz_list, highest, least};
+use super::bands::{Enough, at_end, hertz_list, least};
 use super::held::held;
 use super::safety::{Judged, Safety};
 use crate::app::bench::questions;
+use crate::app::bench::variant::{best_curve, highest};
 use crate::app::panels::{Context, computing};
 use crate::app::text::{fill, tr};
 use crate::app::widgets::number::{significant, with_unit};
@@ -53,7 +54,7 @@ fn pieces(context: &Context<'_>, study: &HarvestStudy, ui: &Ui) -> Vec<(String, 
     } else {
         tr("open circuit").to_owned()
     };
-    let sign = |hertz: f64| if at_end(study, hertz) { "≥ " } else { "" };
+    let sign = |hertz: f64| if at_end(study.window(), hertz) { "≥ " } else { "" };
     let gives = |power: f64, hertz: f64| {
         let power = sign(hertz).to_owned() + &with_unit(power, "W");
         fill("{what} at {hertz} Hz", &[("what", &power), ("hertz", &significant(hertz, 4))])
@@ -82,7 +83,7 @@ fn pieces(context: &Context<'_>, study: &HarvestStudy, ui: &Ui) -> Vec<(String, 
     let safety = Safety::of(view, context.session);
     let enough =
         Enough::new(curve.as_deref().unwrap_or_default(), least, safety.as_ref().map(|safety| safety.0));
-    let (what, power) = (hertz_list(study, &enough.bands), with_unit(least, "W"));
+    let (what, power) = (hertz_list(study.window(), &enough.bands), with_unit(least, "W"));
     let band = if enough.bands.is_empty() {
         fill(", nowhere {power} or more", &[("power", &power)])
     } else {
@@ -92,7 +93,7 @@ fn pieces(context: &Context<'_>, study: &HarvestStudy, ui: &Ui) -> Vec<(String, 
     let judged =
         safety.and_then(|safety| Judged::of(&safety, &view.scenario, &safety.0.demand(&best.measures)));
     if let Some(judged) = judged {
-        let cut = enough.in_words(study).map_or(String::new(), |text| format!(", {text}"));
+        let cut = enough.in_words(study.window()).map_or(String::new(), |text| format!(", {text}"));
         parts.push((format!(", {}{cut}", judged.in_words()), Some(judged.colour(tokens))));
     }
     let from_rest = highest(&study.rest_pieces()).map_or(0.0, |point| point.measures.power);

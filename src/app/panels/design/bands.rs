@@ -7,6 +7,7 @@ use super::held::held;
 use super::measure::Measure;
 use super::safety::Safety;
 use crate::app::bench::questions;
+use crate::app::bench::variant::highest;
 use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, tr};
 use crate::app::theme::{self, Tokens};
@@ -19,7 +20,6 @@ use crate::questions::design::point::powers;
 use crate::questions::design::{Bounds, HarvestPoint, Interval};
 use crate::questions::harvest::HarvestStudy;
 use crate::questions::sweep::Direction;
-use crate::scheduler::Study as _;
 
 /// Least power (W) on the slider.
 const LEAST: f64 = 1e-9;
@@ -28,11 +28,11 @@ const LEAST: f64 = 1e-9;
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     Card::new(tr("Bands")).hint(&held(context.view)).hugging().show(ui, |ui| table(context, ui));
     ui.add_space(grid::GAP);
+    Card::new(tr("Frequencies")).hugging().show(ui, |ui| window(context, ui));
+    ui.add_space(grid::GAP);
     Card::new(tr("Best load")).hugging().show(ui, |ui| super::best_load::brief(context, ui));
     ui.add_space(grid::GAP);
     Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
-    ui.add_space(grid::GAP);
-    Card::new(tr("Frequencies")).hugging().show(ui, |ui| window(context, ui));
 }
 
 /// The pieces of the curves that have bands; the first is the linear device, the second are the stable motions.
@@ -46,24 +46,9 @@ fn curves(study: &HarvestStudy) -> [(&'static str, Vec<Vec<HarvestPoint>>); 5] {
     ]
 }
 
-/// The curve that says what the device gives: its stable periodic motions, or where there are none what rest leads to;
-/// none until that is known.
-pub(super) fn best_curve(study: &HarvestStudy) -> Option<Vec<Vec<HarvestPoint>>> {
-    let stable = study.stable_pieces();
-    if !stable.is_empty() {
-        return Some(stable);
-    }
-    study.finished().then(|| study.rest_pieces())
-}
-
 /// Whether a frequency (Hz) is an end of the window, beyond which what meets it may go on.
-pub(super) fn at_end(study: &HarvestStudy, hertz: f64) -> bool {
-    let (low, high) = study.window();
+pub(super) fn at_end((low, high): (f64, f64), hertz: f64) -> bool {
     (hertz - low).min(high - hertz) < 1e-6 * (high - low)
-}
-
-pub(super) fn highest(pieces: &[Vec<HarvestPoint>]) -> Option<HarvestPoint> {
-    pieces.iter().flatten().copied().max_by(|a, b| a.measures.power.total_cmp(&b.measures.power))
 }
 
 /// Where a curve gives enough, and where it does so within the limits.
@@ -84,10 +69,10 @@ impl Enough {
     }
 
     /// In words, when the limits cut something away.
-    pub(super) fn in_words(&self, study: &HarvestStudy) -> Option<String> {
+    pub(super) fn in_words(&self, window: (f64, f64)) -> Option<String> {
         Some(match self.cut()? {
             [] => tr("none of it within the limits").to_owned(),
-            safe => fill("within the limits: {what}", &[("what", &hertz_list(study, safe))]),
+            safe => fill("within the limits: {what}", &[("what", &hertz_list(window, safe))]),
         })
     }
 
@@ -102,9 +87,9 @@ impl Enough {
 }
 
 /// Intervals of frequency in a row, with a sign where one may go on beyond the window.
-pub(super) fn hertz_list(study: &HarvestStudy, intervals: &[Interval]) -> String {
+pub(super) fn hertz_list(window: (f64, f64), intervals: &[Interval]) -> String {
     let end = |sign: &str, hertz: f64| {
-        let sign = if at_end(study, hertz) { sign } else { "" };
+        let sign = if at_end(window, hertz) { sign } else { "" };
         format!("{sign}{}", significant(hertz, 4))
     };
     let text = |band: &Interval| {
@@ -155,7 +140,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
         let bounds = if index == 0 { bounds.as_ref().map(Bounds::without_magnets) } else { bounds };
         Enough::new(&all[index].1, present, bounds)
     });
-    let at_end = |hertz: f64| at_end(study, hertz);
+    let at_end = |hertz: f64| at_end(study.window(), hertz);
     ui.spacing_mut().interact_size.y = 18.0;
     Grid::new("bands").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
         for text in ["", tr("highest"), tr("half power"), tr("enough")] {
@@ -185,8 +170,8 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
             };
             let label = ui.label(small(&shown).color(enough.colour(tokens)));
             if !bands.is_empty() {
-                let said = enough.in_words(study).map_or(String::new(), |text| format!("\n{text}"));
-                label.on_hover_text(hertz_list(study, bands) + &said);
+                let said = enough.in_words(study.window()).map_or(String::new(), |text| format!("\n{text}"));
+                label.on_hover_text(hertz_list(study.window(), bands) + &said);
             }
             ui.end_row();
         }

@@ -179,11 +179,6 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
         }
         facts.push(losses);
     }
-    let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.operating.as_ref());
-    if let Some(kept) = kept.and_then(|kept| kept.reached.harvest.as_ref()) {
-        let (volts, watts) = (with_unit(kept.measures.v_rms, "V"), with_unit(kept.measures.power, "W"));
-        facts.push(fill("pinned: {volts}, {watts}", &[("volts", &volts), ("watts", &watts)]));
-    }
     let mut remarks = Vec::new();
     if let Some(forced) = operating.forced.filter(|forced| !forced.stable) {
         remarks.push(fill(

@@ -3,6 +3,9 @@
 use egui::Role;
 
 use crate::app::bench::questions;
+use crate::app::bench::variant::highest;
+use crate::app::command::Command;
+use crate::app::history::Hand;
 use crate::app::rehearsal::Desk;
 use crate::app::session::Status;
 use crate::app::widgets::harness::Node;
@@ -18,7 +21,7 @@ fn desk(width: f32, page: &str) -> Desk {
 
 #[test]
 fn every_page_draws_on_a_phone_and_on_a_desk_without_labels_over_each_other() {
-    for page in ["harvest", "load", "materials", "trust", "search", "tolerances", "measured"] {
+    for page in ["harvest", "load", "materials", "trust", "search", "tolerances", "measured", "variants"] {
         for width in [360.0, 1440.0] {
             let mut desk = desk(width, page);
             desk.work(20);
@@ -142,6 +145,11 @@ fn a_load_is_read_in_the_unit_that_suits_it() {
 /// A page with all of it computed.
 fn computed(width: f32, stored: &str) -> Desk {
     let mut desk = Desk::new(width, 2400.0, stored);
+    compute(&mut desk);
+    desk
+}
+
+fn compute(desk: &mut Desk) {
     for _ in 0..40_000 {
         desk.app.logic(&desk.harness.context.clone());
         if desk.app.session.status() == Status::Done && !desk.app.crew.borrow().is_busy() {
@@ -152,7 +160,13 @@ fn computed(width: f32, stored: &str) -> Desk {
         }
     }
     desk.work(3);
-    desk
+}
+
+fn press(desk: &mut Desk, role: Role, label: &str) {
+    let at = desk.harness.find(role, label).bounds.center();
+    let Desk { app, harness } = desk;
+    harness.click(at, |ui| app.ui(ui));
+    desk.work(2);
 }
 
 #[test]
@@ -229,4 +243,64 @@ fn one_window_holds_all_resonances() {
         natural.len() > 1 && natural.iter().all(|omega| low < 0.9 * omega && high > 1.1 * omega),
         "{low} {high}"
     );
+}
+
+#[test]
+fn pinned_designs_stand_beside_the_present_one_until_they_are_removed() {
+    let numbers = r#"{"parameters":{"omega":4.0,"beta":1e-4},"t_end":100}"#;
+    let design = r#"{"page":"variants","window":[1.3,1.5]}"#;
+    for width in [360.0, 1440.0] {
+        let mut desk =
+            computed(width, &format!(r#"{{"scenario":{numbers},"tab":"design","design":{design}}}"#));
+        press(&mut desk, Role::Button, "Pin this design");
+        let told = |desk: &Desk, text: &str| desk.harness.nodes.iter().any(|node| node.label.contains(text));
+        assert!(told(&desk, "Remove A"));
+        let first = desk.app.view.scenario.clone();
+        // The same again is no other.
+        press(&mut desk, Role::Button, "Pin this design");
+        assert_eq!(desk.app.bench.variants.len(), 1);
+        let mut other = first.clone();
+        other.parameters.kappa *= 4.0;
+        desk.app.step(Command::Show(Box::new(other.clone())), Hand::default());
+        desk.app.follow();
+        compute(&mut desk);
+        press(&mut desk, Role::Button, "Pin this design");
+        let texts: Vec<&str> = desk.harness.nodes.iter().map(|node| node.label.as_str()).collect();
+        let rows = |name: &str| texts.iter().filter(|text| **text == name).count();
+        // On a phone the designs stand below each other, each with its own names of rows.
+        let tables = if width < 500.0 { 3 } else { 1 };
+        let (load, length) = (rows("load resistance"), rows("beam length"));
+        assert!(load == tables && length == 0, "{width}: {load} {length} {texts:?}");
+        let all = desk.app.bench.variants.clone();
+        let ([a, b], crew) = ([&all[0], &all[1]], desk.app.crew.borrow());
+        assert_eq!((a.name.as_str(), b.name.as_str(), &b.scenario), ("A", "B", &other));
+        let study: &HarvestStudy = crew.studies.lanes.study().expect("curves");
+        let best = b.best().expect("a motion").0.measures.power;
+        assert_eq!(highest(&study.stable_pieces()).map(|point| point.measures.power), Some(best));
+        assert!(a.best().expect("a motion").0.measures.power != best && b.load.is_some());
+        for design in [a, b] {
+            let best = design.best().expect("a motion").0;
+            let gives =
+                format!("{} at {} Hz", with_unit(best.measures.power, "W"), significant(best.frequency, 4));
+            assert!(texts.iter().any(|text| text.ends_with(&gives)), "{gives}: {texts:?}");
+        }
+        drop(crew);
+        press(&mut desk, Role::Button, "Make A the present design");
+        assert_eq!(desk.app.view.scenario, first);
+        press(&mut desk, Role::TextInput, "Name of B");
+        let Desk { app, harness } = &mut desk;
+        harness.text("loaded", |ui| app.ui(ui));
+        harness.key(egui::Key::Enter, egui::Modifiers::NONE, |ui| app.ui(ui));
+        desk.work(2);
+        assert!(desk.app.bench.variants[1].name.contains("loaded"), "{}", desk.app.bench.variants[1].name);
+        // Another session goes on with them; what cannot be used is left out.
+        let next = Desk::new(width, 900.0, &desk.app.stored());
+        assert_eq!(next.app.bench.variants, desk.app.bench.variants);
+        let spoiled = desk.app.stored().replacen("\"gap\":0.", "\"gap\":\"x\",\"was\":0.", 1);
+        assert_eq!(Desk::new(width, 900.0, &spoiled).app.bench.variants.len(), 1);
+        press(&mut desk, Role::Button, "Remove A");
+        assert_eq!(desk.app.bench.variants.len(), 1);
+        desk.app.undo();
+        assert_eq!(desk.app.bench.variants.len(), 2);
+    }
 }
