@@ -88,7 +88,7 @@ fn one_sentence_answers_first_and_the_frequency_has_a_logarithmic_axis() {
     click(&mut page, "Scale of the frequency: log");
     page.wait_until("the axis", |state| state["view"]["design"]["logarithmic_frequency"] == true);
     rest(&mut page);
-    let said = page.find("Shaken at ", &[]).label;
+    let said = page.find("Shaken at ", &[]).label.replace('\u{a0}', " ");
     for part in [" it gives ", " Hz into 7.63 MΩ", " or more from ", "; without magnets "] {
         assert!(said.contains(part), "{said}: {part}");
     }

@@ -8,6 +8,7 @@ use super::held::held;
 use super::safety::{Judged, Safety};
 use crate::app::bench::questions;
 use crate::app::bench::variant::{best_curve, highest};
+use crate::app::panels::verdict::in_a_line;
 use crate::app::panels::{Context, computing};
 use crate::app::text::{fill, tr};
 use crate::app::widgets::number::{significant, with_unit};
@@ -28,7 +29,12 @@ pub(super) fn show(context: &Context<'_>, ui: &mut Ui) {
     let fade = if *study.asked() == (scenario, question) { 1.0 } else { 0.55 };
     for (text, colour) in pieces(context, study, ui) {
         let colour = colour.unwrap_or(tokens.text_strong).gamma_multiply(fade);
-        job.append(&text, 0.0, TextFormat::simple(fonts::semibold(theme::size::BODY + 1.0), colour));
+        // A number stays with its unit.
+        job.append(
+            &in_a_line(&[text]),
+            0.0,
+            TextFormat::simple(fonts::semibold(theme::size::BODY + 1.0), colour),
+        );
     }
     ui.add(egui::Label::new(job).wrap());
     ui.add_space(4.0);

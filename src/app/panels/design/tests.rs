@@ -174,7 +174,7 @@ fn one_sentence_says_what_the_device_gives_over_the_window() {
     let said = |design: &str| {
         let numbers = r#"{"parameters":{"omega":4.0,"beta":1e-4},"t_end":100}"#;
         let desk = computed(360.0, &format!(r#"{{"scenario":{numbers},"tab":"design","design":{design}}}"#));
-        let label = desk.harness.find(Role::Label, "Shaken at ").label.clone();
+        let label = desk.harness.find(Role::Label, "Shaken at ").label.replace('\u{a0}', " ");
         let crew = desk.app.crew.borrow();
         let study: &HarvestStudy = crew.studies.lanes.study().expect("curves");
         let best = study.stable_pieces().concat().into_iter();
