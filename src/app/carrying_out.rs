@@ -1,7 +1,11 @@
 //! What each command changes: the one place that changes anything.
 
+use std::rc::Rc;
+
+use super::bench::variant::{self, Change, Variant};
 use super::command::Command;
 use super::errand::Errand;
+use super::text::{fill, tr};
 use super::view::MapWindow;
 use super::{App, bench, exporting, figures};
 use crate::scenario::Scenario;
@@ -56,11 +60,8 @@ impl App {
             }
             Command::LoadFigure(number) => self.load_figure(number),
             Command::Enlarge(panel) => self.view.enlarged = panel,
-            Command::Pin(keep) => {
-                self.session.pin(keep);
-                let crew = self.crew.borrow();
-                self.bench.pinned = keep.then(|| crew.studies.pinned(&self.view.scenario));
-            }
+            Command::Pin(keep) => self.session.pin(keep),
+            Command::Variant(change) => self.vary(change),
             Command::SetDark(dark) => self.view.dark = Some(dark),
             Command::Speak(language) => self.view.language = Some(language),
             Command::SetContrast(contrast) => self.view.contrast = Some(contrast),
@@ -81,6 +82,48 @@ impl App {
             }
             Command::Record(_) => self.stop_recording(),
         }
+    }
+
+    /// Changes the pinned variants.
+    fn vary(&mut self, change: Change) {
+        let mut variants = self.bench.variants.to_vec();
+        match change {
+            Change::Pin => {
+                let present = Variant::present(&self.view, &self.session, &self.crew.borrow().studies);
+                let Some((mut present, _)) = present.filter(|(_, all)| *all) else {
+                    return self.tell(tr(
+                        "There is nothing to pin yet: the curves of the page Harvest are not computed.",
+                    ));
+                };
+                if let Some(same) = variants.iter().find(|one| one.is_same(&present)) {
+                    let text = fill("This design is pinned already, as {name}.", &[("name", &same.name)]);
+                    return self.tell(&text);
+                }
+                if variants.len() >= variant::MOST {
+                    return self
+                        .tell(&fill("{most} designs are pinned already.", &[("most", &variant::MOST)]));
+                }
+                present.name = variant::free_name(&variants);
+                variants.push(present);
+            }
+            Change::Remove(index) if index < variants.len() => {
+                variants.remove(index);
+            }
+            Change::Rename(index, name) => {
+                if let Some(variant) = variants.get_mut(index) {
+                    variant.name = name.chars().take(variant::LETTERS).collect();
+                }
+            }
+            Change::Restore(index) => {
+                if let Some(variant) = variants.get(index) {
+                    self.view.design.holds_acceleration = variant.holds_acceleration;
+                    self.show(variant.scenario.clone());
+                }
+                return;
+            }
+            Change::Remove(_) => return,
+        }
+        self.bench.variants = Rc::new(variants);
     }
 
     fn stop_recording(&mut self) {

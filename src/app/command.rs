@@ -1,6 +1,7 @@
 //! What panels ask for. They draw from shared references and push commands; one place carries them out.
 
 use super::bench::measured::Reading;
+use super::bench::variant::Change;
 use super::lessons::course::Action;
 use super::live::LiveAction;
 use super::view::design::DesignView;
@@ -55,6 +56,8 @@ pub(super) enum Command {
     Enlarge(Option<Panel>),
     /// Keep the present curves as ghosts, or drop them.
     Pin(bool),
+    /// Change the pinned variants of the design.
+    Variant(Change),
     /// Dark or light theme.
     SetDark(bool),
     /// Another language.
@@ -85,6 +88,13 @@ pub(super) enum Command {
     FullScreen,
     /// Record this part of the page, in parts of its sides, under this title, or end that.
     Record(Option<(String, egui::Rect)>),
+}
+
+impl Command {
+    /// What pinning means on this tab, where curves are `pinned` or not.
+    pub(super) fn pin(tab: Tab, pinned: bool) -> Self {
+        if tab == Tab::Design { Self::Variant(Change::Pin) } else { Self::Pin(!pinned) }
+    }
 }
 
 /// The commands of a frame.

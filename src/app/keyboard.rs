@@ -63,7 +63,7 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
         }
         let plain = [
             (Key::F, Command::Enlarge(next_plot(view))),
-            (Key::P, Command::Pin(!pinned)),
+            (Key::P, Command::pin(view.tab, pinned)),
             (Key::D, Command::SetDark(!dark)),
             (Key::L, Command::SetProjector(!view.projector)),
             (Key::B, Command::MoveBeam(!view.beam_moves)),

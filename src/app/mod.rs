@@ -125,7 +125,10 @@ impl App {
         let (view, notice) = View::restore(stored);
         let mut session = Session::default();
         session.ask(&view.scenario);
-        let (bench, course) = (Bench::default(), Course::restore(stored));
+        let (bench, course) = (
+            Bench { variants: bench::variant::restore(stored), ..Bench::default() },
+            Course::restore(stored),
+        );
         let (history, live) = (History::default(), Live::default());
         let (address, errands, exports) = (String::new(), Vec::new(), Vec::new());
         let mut app = Self {
@@ -326,6 +329,7 @@ impl App {
     pub fn stored(&self) -> String {
         let mut value = self.view.to_value();
         self.course.store(&mut value);
+        bench::variant::store(&self.bench.variants, &mut value);
         value.to_string()
     }
 }

@@ -65,7 +65,10 @@ pub(super) fn sweep(view: &View, session: &Session) -> (Scenario, Sweep) {
     let scenario = view.scenario.forgetting(&[Forgotten::Duration, Forgotten::Number(parameter, anywhere)]);
     let (direction, along) = (Direction::Up, Along::default());
     let (transient, kept) = (dwell.discarded, dwell.kept);
-    (scenario, Sweep { parameter, from, to, count, direction, transient, kept, branches: true, along })
+    let (branches, logarithmic) = (true, false);
+    let sweep =
+        Sweep { parameter, from, to, count, direction, transient, kept, branches, along, logarithmic };
+    (scenario, sweep)
 }
 
 /// The bifurcation curves in the plane in view; `None` when it is empty.

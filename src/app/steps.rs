@@ -4,8 +4,10 @@
 //! beam moves. Those stay as they are when steps are taken back.
 //!
 //! `App::step` carries a command out and gives `app::history` the moment before it, if anything changed: the view
-//! without its looks, and the pinned curves. Changes merge while a pointer or a key is down, so that a drag is one step. Links, files and
+//! without its looks, and the pinned curves and designs. Changes merge while a pointer or a key is down, so that a drag is one step. Links, files and
 //! `load()` are steps, too.
+
+use std::rc::Rc;
 
 use super::App;
 use super::command::Command;
@@ -16,7 +18,7 @@ use super::view::View;
 impl App {
     pub(super) fn moment(&self) -> Moment {
         let view = self.view.clone().with_looks_of(&View::default());
-        Moment { view, pinned: self.session.pinned.clone() }
+        Moment { view, pinned: self.session.pinned.clone(), variants: Rc::clone(&self.bench.variants) }
     }
 
     /// Carries out a command and notes what there was before.
@@ -69,6 +71,7 @@ impl App {
     fn restore(&mut self, moment: Moment) {
         self.view = moment.view.with_looks_of(&self.view);
         self.session.pinned = moment.pinned;
+        self.bench.variants = moment.variants;
         self.session.ask(&self.view.scenario);
     }
 }

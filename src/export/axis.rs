@@ -94,7 +94,9 @@ impl Axis {
         let per_point = (high - low) / length;
         let wanted = wanted.min(0.25 * length).max(0.6 * wanted);
         let decade = 1.0 / per_point;
-        if self.logarithmic && decade < 3.5 * wanted {
+        // Where values are short in digits they stand at 1, 2, 5 even when decades are narrow.
+        let short = low >= SHORT.0 && high <= SHORT.1;
+        if self.logarithmic && decade < if short { 2.0 } else { 3.5 } * wanted {
             return decades(low, high, wanted * per_point, decade >= 24.0);
         }
         if self.logarithmic {
@@ -125,6 +127,8 @@ impl Axis {
     }
 }
 
+/// Coordinates of a logarithmic axis between which values are short in plain digits.
+const SHORT: (f64, f64) = (-1.0, 4.0);
 /// Step sizes below this, in decades, mark unlabelled lines of a logarithmic axis.
 const MINOR: f64 = 0.05;
 
@@ -208,6 +212,8 @@ mod tests {
         assert_eq!(labels(&axis, -5.5, -0.5, 400.0, 72.0), ["10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²", "10⁻¹"]);
         let fine = labels(&axis, -2.2, -1.8, 400.0, 72.0);
         assert!(fine.len() >= 3 && fine.iter().all(|text| text.starts_with("0.0")), "{fine:?}");
+        let hertz = labels(&axis, 0.0, 2.1, 300.0, 54.0);
+        assert_eq!(hertz, ["2", "5", "10", "20", "50", "100"]);
     }
 
     #[test]

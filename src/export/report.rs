@@ -20,6 +20,8 @@ pub struct Words {
     pub within: &'static str,
     /// Heading of the device.
     pub device: &'static str,
+    /// Heading of the variants.
+    pub variants: &'static str,
     /// Heading of the dimensionless numbers.
     pub dimensionless: &'static str,
     /// Names of the parameters, in the order of [`Parameter::ALL`].
@@ -43,6 +45,9 @@ pub struct Report {
     pub limits: Vec<(String, bool)>,
     /// The device in SI units: name, symbol, value with unit.
     pub device: Vec<[String; 3]>,
+    /// The present design beside the pinned ones: a row with their names, and for each row of numbers its name and a cell for each;
+    /// empty where nothing is pinned.
+    pub variants: Vec<Vec<String>>,
     /// Plots, each of one card.
     pub plots: Vec<Vec<Figure>>,
     /// Side and dark modules (column, row) of the link's QR code, where it has one.
@@ -67,6 +72,7 @@ p { margin: 0 0 .8mm } .weak, footer { color: #556270 } .bad { color: #b31540; f
 .device { columns: 2; column-gap: 6mm }
 table { border-collapse: collapse; width: 100%; font-size: 8pt; line-height: 1.2 }
 td { padding: .25mm 0; border-bottom: .1mm solid #e2e7ec } td:last-child { text-align: right; white-space: nowrap }
+.variants td:last-child { text-align: left; white-space: normal } .variants td { padding-right: 3mm }
 .plots { display: grid; grid-template-columns: 1fr 1fr; gap: 0 3mm; margin-top: 1mm }
 .plots svg { width: 100%; height: auto; display: block } .plots figure { margin: 0; break-inside: avoid }
 .code { width: 24mm; height: 24mm; flex: none } a { color: inherit; overflow-wrap: anywhere }
@@ -120,7 +126,9 @@ pub fn html(report: &Report) -> String {
     }
     out.push_str("</table>\n");
     paragraph(&mut out, " class=\"weak\"", &report.words.model);
-    out.push_str("\n</section>\n</div>\n<div class=\"plots\">\n");
+    out.push_str("\n</section>\n</div>\n");
+    variants(&mut out, report);
+    out.push_str("<div class=\"plots\">\n");
     for (number, plot) in report.plots.iter().enumerate() {
         // Identifiers are of the whole page here.
         let (drawing, _) = svg::drawing_with(plot, &[], PLOT, &format!("f{number}"));
@@ -142,6 +150,20 @@ fn paragraph(out: &mut String, attributes: &str, text: &str) {
 fn row(out: &mut String, name: &str, symbol: &str, value: &str) {
     let [name, symbol, value] = [name, symbol, value].map(escape);
     let _ = writeln!(out, "<tr><td>{name}</td><td>{symbol}</td><td>{value}</td></tr>");
+}
+
+/// The designs side by side.
+fn variants(out: &mut String, report: &Report) {
+    if report.variants.is_empty() {
+        return;
+    }
+    heading(out, report.words.variants);
+    out.push_str("<table class=\"variants\">\n");
+    for cells in &report.variants {
+        let cells: String = cells.iter().map(|cell| format!("<td>{}</td>", escape(cell))).collect();
+        let _ = writeln!(out, "<tr>{cells}</tr>");
+    }
+    out.push_str("</table>\n");
 }
 
 fn heading(out: &mut String, text: &str) {

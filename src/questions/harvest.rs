@@ -27,7 +27,6 @@ use crate::model::layers::Laminate;
 use crate::model::{Limits, ModelError, Parameter, Shaking};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
-use crate::spacing;
 
 /// Frequencies of a piece of work.
 const PER_PIECE: usize = 8;
@@ -42,6 +41,8 @@ const MOST_CHANGES: usize = 16;
 pub struct Harvest {
     /// Frequencies of the curves; no curves when absent.
     pub frequency: Option<Span>,
+    /// Whether they are equally spaced on a logarithmic scale.
+    pub logarithmic: bool,
     /// What of the base's motion stays over the frequencies.
     pub hold: Shaking,
     /// Power (W) that counts as usable, for the bands; half of the highest of all curves by default.
@@ -334,6 +335,8 @@ pub struct HarvestStudy {
     asked: (Scenario, Harvest),
     /// Lowest and highest omega (dimensionless).
     window: (f64, f64),
+    /// Those at which the motions are computed.
+    omegas: Vec<f64>,
     plant: Plant,
     linear: LinearCurve,
     branches: Option<Result<Vec<ResponseCurve>, Failure>>,
@@ -373,14 +376,17 @@ impl HarvestStudy {
             kept: question.dwell.kept,
             branches: false,
             along: plant.along,
+            logarithmic: question.logarithmic,
         };
-        let linear = linear_curve(&plant, window, count)?;
+        let omegas = sweep.values(Direction::Up);
+        let linear = linear_curve(&plant, window, omegas.iter().copied())?;
         Ok(Self {
             linear,
             branches: None,
             branches_handed: false,
             sweeps: SweepStudy::new(rest, sweep, &[Direction::Up, Direction::Down]),
             starts: vec![None; count],
+            omegas,
             starts_handed: 0,
             changes: None,
             changes_handed: 0,
@@ -516,7 +522,7 @@ impl HarvestStudy {
         let handed = self.changes_handed;
         let Change { curve, index, difference, .. } = self.changes.as_ref()?.get(handed)?;
         let (way, neighbours) = match curve {
-            Sampled::FromRest => (ChangeWay::FromRest, (self.omega(*index), self.omega(index + 1))),
+            Sampled::FromRest => (ChangeWay::FromRest, (self.omegas[*index], self.omegas[index + 1])),
             Sampled::Swept(direction) => {
                 let values = self.sweeps.question().values(*direction);
                 let (begin, state) = self.sweeps.begun(*direction, *index)?;
@@ -538,10 +544,6 @@ impl HarvestStudy {
         }))
     }
 
-    fn omega(&self, index: usize) -> f64 {
-        spacing::between(self.window, index, self.starts.len())
-    }
-
     fn next_starts(&mut self) -> Option<Order<Self>> {
         let begin = self.starts_handed;
         let end = (begin + PER_PIECE).min(self.starts.len());
@@ -549,7 +551,7 @@ impl HarvestStudy {
             return None;
         }
         self.starts_handed = end;
-        let omegas = (begin..end).map(|index| self.omega(index)).collect();
+        let omegas = self.omegas[begin..end].to_vec();
         let (scenario, shaking) = (self.asked.0.clone(), self.asked.1.hold);
         Some(Order::new(Starts { scenario, shaking, omegas }, move |study: &mut Self, found| {
             match found {
@@ -568,7 +570,7 @@ impl HarvestStudy {
     fn start_at(&self, index: usize, cell: Option<Cell>) -> Option<(Motion, HarvestPoint)> {
         let cell = cell?;
         cell.demand()?;
-        let point = HarvestPoint::new(&self.plant, self.omega(index), &cell.measures);
+        let point = HarvestPoint::new(&self.plant, self.omegas[index], &cell.measures);
         Some((cell.motion, point))
     }
 }

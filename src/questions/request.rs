@@ -111,6 +111,7 @@ mod tests {
             kept: 2,
             branches: true,
             along: Along::default(),
+            logarithmic: false,
         };
         again(&sweep, &scenario);
     }

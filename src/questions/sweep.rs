@@ -13,7 +13,7 @@ use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, SweepPoint, sweep};
 use crate::model::{Along, Parameter};
 use crate::scenario::Scenario;
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
-use crate::spacing::equally_spaced;
+use crate::spacing::spread;
 
 /// Numbers of values a sweep may have.
 pub const COUNTS: (usize, usize) = (2, 2000);
@@ -60,6 +60,9 @@ pub struct Sweep {
     /// What follows the frequency meanwhile; requests leave it as it is.
     #[serde(skip)]
     pub along: Along,
+    /// Whether the values are equally spaced on a logarithmic scale, between positive ends; requests leave it as it is.
+    #[serde(skip)]
+    pub logarithmic: bool,
 }
 
 const fn default_count() -> usize {
@@ -92,7 +95,7 @@ impl Sweep {
 
     /// The values in the order of `direction`.
     pub fn values(&self, direction: Direction) -> Vec<f64> {
-        let values = equally_spaced(self.range(), self.count);
+        let values = spread(self.range(), self.logarithmic, self.count);
         match direction {
             Direction::Up => values.collect(),
             Direction::Down => values.rev().collect(),

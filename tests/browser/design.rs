@@ -71,3 +71,65 @@ fn a_device_out_of_its_limits_is_called_unsafe_and_the_search_finds_a_better_one
     page.find("Limits: model not valid", &[]);
     page.close();
 }
+
+/// Waits until nothing is being computed.
+fn rest(page: &mut Page) {
+    std::thread::sleep(Duration::from_millis(600));
+    page.wait_until("the curves", |state| state["progress"].as_array().is_some_and(Vec::is_empty));
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn one_sentence_answers_first_and_the_frequency_has_a_logarithmic_axis() {
+    let mut page = Page::open(1440, 900, Theme::Light);
+    page.call("load", r#"{"scenario":{"parameters":{"omega":4.0,"beta":1e-4}},"tab":"design"}"#)
+        .expect("a view");
+    click(&mut page, "all resonances");
+    click(&mut page, "Scale of the frequency: log");
+    page.wait_until("the axis", |state| state["view"]["design"]["logarithmic_frequency"] == true);
+    rest(&mut page);
+    let said = page.find("Shaken at ", &[]).label.replace('\u{a0}', " ");
+    for part in [" it gives ", " Hz into 7.63 MΩ", " or more from ", "; without magnets "] {
+        assert!(said.contains(part), "{said}: {part}");
+    }
+    page.screenshot("design-logarithmic");
+    page.resize(360, 2400, Theme::Dark);
+    std::thread::sleep(Duration::from_secs(1));
+    page.find("Shaken at ", &[]);
+    page.screenshot("design-logarithmic-phone");
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
+fn pinned_variants_stand_side_by_side_and_come_back_with_the_page() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    let view = |kappa: f64, c0: f64| {
+        format!(
+            r#"{{"scenario":{{"parameters":{{"omega":4.0,"beta":1e-4,"kappa":{kappa},"c0":{c0}}},"model":{{"force":"exact"}}}},
+            "tab":"design","design":{{"page":"variants","window":[1.1,1.6]}}}}"#
+        )
+    };
+    for (name, kappa, c0) in [("A", 1e-6, 0.5084), ("B", 4e-6, 0.5084), ("C", 1e-6, 0.4), ("D", 1e-6, 0.0)] {
+        page.call("load", &view(kappa, c0)).expect("a view");
+        rest(&mut page);
+        click(&mut page, "Pin this design");
+        page.find(&format!("Remove {name}"), &["Button"]);
+    }
+    page.call("load", &view(2e-6, 0.45)).expect("a view");
+    rest(&mut page);
+    page.find("load resistance", &[]);
+    page.screenshot("design-variants");
+    page.resize(360, 3000, Theme::Light);
+    std::thread::sleep(Duration::from_secs(1));
+    page.find("Remove D", &["Button"]);
+    page.screenshot("design-variants-phone");
+    page.resize(1440, 900, Theme::Light);
+    page.reload();
+    click(&mut page, "Make C the present design");
+    let state = page.wait_until("the third", |state| state["view"]["scenario"]["parameters"]["c0"] == 0.4);
+    assert_eq!(state["view"]["scenario"]["parameters"]["kappa"], 1e-6);
+    rest(&mut page);
+    page.screenshot("design-variants-restored");
+    page.close();
+}

@@ -16,6 +16,7 @@ use harvester_lab::questions::harvest::{Harvest, HarvestStudy};
 use harvester_lab::questions::sweep::Direction;
 use harvester_lab::scenario::{ModelChoice, Scenario};
 use harvester_lab::scheduler::complete;
+use harvester_lab::spacing::equally_spaced;
 use harvester_lab::theory::{LinearResponse, Source};
 use nalgebra::Complex;
 
@@ -316,7 +317,7 @@ fn the_linear_device_at_its_best_is_shaken_as_hard_whatever_amplitude_that_takes
 #[test]
 fn the_half_power_band_of_the_linear_device_has_half_the_power_at_its_ends() -> TestResult {
     let plant = Plant::new(&figure_9())?;
-    let curve = linear_curve(&plant, (3.0, 5.0), 50)?;
+    let curve = linear_curve(&plant, (3.0, 5.0), equally_spaced((3.0, 5.0), 50))?;
     let bare = plant.without_magnets()?;
     let power = |hertz: f64| -> Fallible<f64> {
         let system = bare.with_excitation(bare.parameters.beta, plant.units.omega(hertz))?;

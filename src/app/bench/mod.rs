@@ -7,18 +7,21 @@
 //! answer (the frequency in a curve over frequency, the ceramic in a table of ceramics), so that moving it asks
 //! nothing new. A measured file is read by `bench::measured` for at most 6 ms a frame.
 
+pub(super) mod facts;
 pub(super) mod measured;
 pub(super) mod questions;
 pub(super) mod recorded;
 pub(super) mod shaking;
+pub(super) mod variant;
+
+use std::rc::Rc;
 
 use measured::Measured;
+use variant::Variant;
 
 use super::view::View;
 use crate::model::{Device, Dimension, ElectricalScaling, Limits, ModelError};
-use crate::questions::design::Operating;
 use crate::questions::design::measured::Kind;
-use crate::questions::harvest::HarvestStudy;
 use crate::scenario::{ModelChoice, Scenario};
 use crate::sentence::Sentence;
 
@@ -32,8 +35,8 @@ pub(super) struct Bench {
     pub vibration: Measured,
     /// Modes and force law before the present ones.
     pub before: ModelChoice,
-    /// Curves and numbers kept to compare with.
-    pub pinned: Option<Box<Pinned>>,
+    /// Designs kept to compare with.
+    pub variants: Rc<Vec<Variant>>,
 }
 
 impl Default for Bench {
@@ -43,7 +46,7 @@ impl Default for Bench {
             measured: Measured::of(Kind::Voltage),
             vibration: Measured::of(Kind::Acceleration),
             before: ModelChoice::default(),
-            pinned: None,
+            variants: Rc::default(),
         }
     }
 }
@@ -53,14 +56,6 @@ impl Bench {
     pub(super) fn file_of(&mut self, wanted: Kind) -> &mut Measured {
         if wanted == Kind::Acceleration { &mut self.vibration } else { &mut self.measured }
     }
-}
-
-/// A device that was pinned.
-pub(super) struct Pinned {
-    /// What it delivers over frequency, if that was known.
-    pub harvest: Option<HarvestStudy>,
-    /// What it delivers as it was.
-    pub operating: Option<Operating>,
 }
 
 /// Relative difference below which two dimensions are the same but for rounding.

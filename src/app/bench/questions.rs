@@ -26,8 +26,9 @@ const EVERY_LOAD: usize = 2;
 pub(in crate::app) const LEAST: f64 = 1e-6;
 /// Frequencies of the band of a candidate.
 const BAND_POINTS: usize = 12;
-/// Frequencies of a curve.
+/// Frequencies of a curve, and ratio of the ends of a window from which there are twice as many.
 const FREQUENCIES: usize = 97;
+const WIDE: f64 = 3.0;
 /// Half width of a window about a frequency far from every resonance, over that frequency.
 const ABOUT: f64 = 0.2;
 /// Smallest window, over its middle.
@@ -80,8 +81,10 @@ pub(in crate::app) fn window(view: &View, session: &Session) -> (f64, f64) {
 pub(in crate::app) fn harvest(view: &View, session: &Session) -> (Scenario, Harvest, Span) {
     let window = window(view, session);
     let units = view.scenario.units();
-    let frequency = Span { from: units.hertz(window.0), to: units.hertz(window.1), count: FREQUENCIES };
-    let question = Harvest { frequency: Some(frequency), hold: shaking(view), ..Harvest::default() };
+    let count = if window.1 < WIDE * window.0 { FREQUENCIES } else { 2 * FREQUENCIES - 1 };
+    let frequency = Span { from: units.hertz(window.0), to: units.hertz(window.1), count };
+    let (hold, logarithmic) = (shaking(view), view.design.logarithmic_frequency);
+    let question = Harvest { frequency: Some(frequency), logarithmic, hold, ..Harvest::default() };
     (at_the_beginning(view, window), question, frequency)
 }
 

@@ -1,7 +1,7 @@
 //! What is being studied for the Design tab.
 
 use super::studies::Studies;
-use crate::app::bench::{Pinned, questions};
+use crate::app::bench::questions;
 use crate::app::session::Session;
 use crate::app::view::View;
 use crate::questions::design::Operating;
@@ -87,12 +87,6 @@ impl Studies {
     ) -> Option<(Result<&Operating, &Failure>, bool)> {
         let study: &Single<Deliver> = self.lanes.finished()?;
         Some((study.found()?, study.asked().scenario == *scenario))
-    }
-
-    /// What is known of `scenario`, to be kept.
-    pub(in crate::app) fn pinned(&self, scenario: &Scenario) -> Box<Pinned> {
-        let operating = self.operating(scenario).and_then(|(found, _)| found.ok().cloned());
-        Box::new(Pinned { harvest: self.lanes.study().cloned(), operating })
     }
 
     /// What the linear device would give at its own first resonance (Hz).

@@ -1,23 +1,23 @@
-//! The report: device, verdict, limits and the plots of Explore, for printing.
+//! The report: device, verdict, limits, pinned variants and the plots of Explore, for printing.
 
 use super::BUSY;
+use crate::app::bench::facts;
 use crate::app::errand::Errand;
 use crate::app::panels::design::safety::{Safety, in_words};
+use crate::app::panels::design::variants;
 use crate::app::reading::Reading;
 use crate::app::session::Status;
-use crate::app::text::{fill, language, tr};
+use crate::app::text::{language, tr};
 use crate::app::view::design::Page;
 use crate::app::view::{Panel, Tab, View};
-use crate::app::widgets::number::{exact, round_significant, typographic};
 use crate::app::widgets::qr_modules;
 use crate::app::{App, bench};
 use crate::dynamics::Outcome;
 use crate::export::Figure;
 use crate::export::report::{Report, Words, html};
+use crate::model::Parameter;
 use crate::model::limits::Standing;
-use crate::model::{Dimension, ForceLaw, Parameter};
 use crate::questions::harvest::HarvestStudy;
-use crate::scenario::Scenario;
 use crate::scheduler::{Asked as _, Study as _};
 
 /// Height over width of a plot in a report.
@@ -55,11 +55,11 @@ impl App {
         let (scenario, question, _) = bench::questions::harvest(&self.view, &self.session);
         let asked = (scenario, question);
         if harvest.is_some_and(|study| study.finished() && *study.asked() == asked) {
-            let mut view = View { tab: Tab::Design, enlarged: Some(Panel::Harvest), ..self.view.clone() };
-            view.design.page = Page::Harvest;
-            let mut figures = self.figures(&view, None);
-            figures.iter_mut().for_each(|figure| figure.aspect = REPORT_ASPECT);
-            plots.push(figures);
+            plots.push(self.design_figures(Panel::Harvest, Page::Harvest));
+        }
+        let variants = variants::in_words(&self.view, &self.session, &crew.studies, &self.bench.variants);
+        if !variants.is_empty() {
+            plots.push(self.design_figures(Panel::Variants, Page::Variants));
         }
         Some(Report {
             words: self.report_words(),
@@ -67,11 +67,21 @@ impl App {
             facts: reading.facts,
             remarks: [reading.warnings, reading.remarks].concat(),
             limits: self.limits(),
-            device: device_rows(&self.view),
+            variants,
+            device: facts::rows(&self.view.scenario),
             plots,
             code: qr_modules(&provenance.link),
             provenance,
         })
+    }
+
+    /// The plots of a panel of the Design tab.
+    fn design_figures(&self, panel: Panel, page: Page) -> Vec<Figure> {
+        let mut view = View { tab: Tab::Design, enlarged: Some(panel), ..self.view.clone() };
+        view.design.page = page;
+        let mut figures = self.figures(&view, None);
+        figures.iter_mut().for_each(|figure| figure.aspect = REPORT_ASPECT);
+        figures
     }
 
     fn report_words(&self) -> Words {
@@ -81,9 +91,10 @@ impl App {
             beyond: tr("Beyond a limit"),
             within: tr("Within the limits"),
             device: tr("Device"),
+            variants: tr("Variants"),
             dimensionless: tr("Dimensionless"),
             parameters: Parameter::ALL.map(|parameter| tr(parameter.fact().title)),
-            model: model_in_words(&self.view.scenario),
+            model: facts::model(&self.view.scenario),
         }
     }
 
@@ -97,52 +108,5 @@ impl App {
         };
         let checks = safety.checks(&summary.measures.demand());
         checks.iter().map(|check| (in_words(check), check.standing == Standing::Within)).collect()
-    }
-}
-
-/// The device of a view for a table: name, symbol, value with unit.
-fn device_rows(view: &View) -> Vec<[String; 3]> {
-    let Ok(found) = bench::device(&view.scenario) else { return Vec::new() };
-    let row = |dimension: &Dimension| {
-        let fact = dimension.fact();
-        let value = fact.shown.1 * found.get(*dimension);
-        let value = if value.is_finite() {
-            let unit = view.scenario.scaling.unit(fact.shown.0);
-            format!("{} {unit}", typographic(&exact(round_significant(value, 5))))
-        } else {
-            tr("open circuit").to_owned()
-        };
-        [tr(fact.title).to_owned(), fact.base().to_owned(), value]
-    };
-    let mut rows: Vec<[String; 3]> = Dimension::ALL.iter().map(row).collect();
-    let magnets = match (view.scenario.parameters.c0 == 0.0, found.repelling) {
-        (true, _) => tr("none"),
-        (false, true) => tr("repelling"),
-        (false, false) => tr("attracting"),
-    };
-    rows.push([tr("Magnets").to_owned(), String::new(), magnets.to_owned()]);
-    rows.push([
-        tr("Base acceleration").to_owned(),
-        String::new(),
-        format!("{} g", typographic(&exact(round_significant(found.acceleration(), 4)))),
-    ]);
-    rows
-}
-
-/// Modes and force law for a report.
-fn model_in_words(scenario: &Scenario) -> String {
-    let law = match scenario.model.force {
-        ForceLaw::Quadratic => tr("quadratic").to_owned(),
-        ForceLaw::Taylor(order) => fill("Taylor (order {order})", &[("order", &order)]),
-        ForceLaw::Exact => tr("exact").to_owned(),
-    };
-    let text = match scenario.model.modes {
-        1 => fill("1 mode, {law} magnet force", &[("law", &law)]),
-        modes => fill("{modes} modes, {law} magnet force", &[("modes", &modes), ("law", &law)]),
-    };
-    if scenario.model.residual_moment {
-        fill("{text}; modes left out count in the circuit", &[("text", &text)])
-    } else {
-        text
     }
 }

@@ -1,9 +1,11 @@
 use super::*;
+use crate::app::bench::variant::Change;
 use crate::app::command::Command;
 use crate::app::history::Hand;
 use crate::app::map::{self, Boundaries};
 use crate::app::rehearsal;
 use crate::app::session::Session;
+use crate::app::widgets::number::with_unit;
 
 use crate::questions::chart::Quantity;
 use crate::questions::solve;
@@ -105,6 +107,43 @@ fn a_report_holds_the_numbers_of_the_scenario() {
     assert_eq!(count("script"), 0);
     for part in ["Period 2", "1e−4", "8.0969", "480 mm", "v=1&amp;alpha=1e-4", "of the gap"] {
         assert!(text.contains(part), "{part}");
+    }
+    assert!(!text.contains("<h2>Variants"));
+}
+
+#[test]
+fn a_report_holds_the_pinned_variants_with_their_curves() {
+    let (mut app, context) =
+        page("v=1&omega=4&beta=1e-4&tab=design&design.page=variants&design.window=1.3+1.5", [1440.0, 900.0]);
+    app.step(Command::Variant(Change::Pin), Hand::default());
+    assert_eq!((app.bench.variants.len(), app.notice.clone()), (1, None));
+    app.step(Command::Report, Hand::default());
+    let errands = app.take_errands();
+    let [Errand::Save(name, _, text)] = errands.as_slice() else { panic!("{errands:?}") };
+    keep(&format!("variants-{name}"), text);
+    let best = app.bench.variants[0].best().expect("a motion").0;
+    let power = with_unit(best.measures.power, "W");
+    for part in ["<h2>Variants</h2>", "<td>present</td><td>A</td>", "Variants over frequency", &power] {
+        assert!(text.contains(part), "{part}");
+    }
+    let (_, table) = saved(&mut app, &context, "Variants over frequency", Format::Csv);
+    assert!(table.contains("\npresent,1.") && table.contains("\nA,1."), "{table}");
+}
+
+#[test]
+fn a_plot_over_logarithmic_frequencies_is_saved_in_hertz_with_round_ticks() {
+    let link = "v=1&alpha=1e-4&beta=1e-4&omega=8.0969&tab=design&design.logarithmic_frequency=true&design.window=1+9";
+    let (mut app, context) = page(link, [1440.0, 900.0]);
+    assert_eq!(app.notice, None);
+    let (_, table) = saved(&mut app, &context, "Over frequency", Format::Csv);
+    let curves = table.lines().filter(|line| !line.starts_with("least power"));
+    let hertz = curves.filter_map(|line| line.split(',').find_map(|field| field.parse::<f64>().ok()));
+    let hertz: Vec<f64> = hertz.collect();
+    let outside = hertz.iter().find(|hertz| !(0.999..=9.001).contains(*hertz));
+    assert!(hertz.len() > 100 && outside.is_none(), "{outside:?}");
+    let (_, drawing) = saved(&mut app, &context, "Over frequency", Format::Svg);
+    for tick in [">2<", ">4<", ">6<"] {
+        assert!(drawing.contains(tick), "{tick}");
     }
 }
 

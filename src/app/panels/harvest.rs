@@ -5,15 +5,15 @@ use egui_plot::PlotPoint;
 
 use super::Context;
 use super::design::going::go_to;
-use super::design::measure::{Measure, values};
+use super::design::measure::{self, Measure, values};
 use super::design::safety::{Safety, beyond};
 use super::spec::{Place, Spec};
 use crate::app::panels::say_cut;
 use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::view::design::{Page, Watched};
-use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{Series, chips, legend, row};
+use crate::app::widgets::plot_style;
+use crate::app::widgets::{Series, legend};
 use crate::export::Pen;
 use crate::questions::design::HarvestPoint;
 use crate::questions::harvest::HarvestStudy;
@@ -38,23 +38,7 @@ fn contents(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn header(context: &mut Context<'_>, ui: &mut Ui) {
-    let (mut watched, mut logarithmic) = (context.view.design.watched, context.view.design.logarithmic);
-    let choices = [
-        (Watched::Power, tr("power")),
-        (Watched::PerG2, tr("per g²")),
-        (Watched::Voltage, tr("V rms")),
-        (Watched::Peak, tr("V peak")),
-        (Watched::Tip, tr("tip")),
-    ];
-    row(ui, |ui| {
-        let mut changed = chips(ui, tr("Over frequency"), &mut watched, &choices);
-        if watched != Watched::Tip {
-            changed |= chips(ui, tr("Scale"), &mut logarithmic, &[(false, tr("linear")), (true, tr("log"))]);
-        }
-        if changed {
-            context.redesign(|design| (design.watched, design.logarithmic) = (watched, logarithmic));
-        }
-    });
+    measure::choose(context, ui);
     legend::legend(
         ui,
         &[
@@ -102,13 +86,11 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
     let curves = curves(study);
     let all = || curves.iter().flat_map(|(_, _, points)| points);
     let highest = all().map(|point| values(watched, point)[1].abs()).fold(0.0, f64::max);
-    let measure = Measure::new(watched, view.design.logarithmic, highest);
+    let measure = Measure::new(&view.design, highest);
     let safety = Safety::of(view, context.session);
     let place = |side: usize| {
         let measure = &measure;
-        move |point: &HarvestPoint| {
-            PlotPoint::new(point.frequency, measure.coordinate(measure.values(point)[side]))
-        }
+        move |point: &HarvestPoint| measure.place(point.frequency, measure.values(point)[side])
     };
     let sides = if watched == Watched::Tip { 2 } else { 1 };
     let mut drawn: Vec<(Series, &str, Vec<PlotPoint>)> = Vec::new();
@@ -127,19 +109,14 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
         }
     }
     let measured = super::measured::over_frequency(context, watched, &measure);
-    let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.harvest.as_ref());
-    for (kind, _, points) in kept.map_or_else(Vec::new, self::curves) {
-        if matches!(kind, Series::Stable | Series::FromRest) {
-            drawn.push((Series::Ghost, tr("pinned"), measure.line(&points, 0)));
-        }
-    }
-    let x = Axis::new(tr("excitation frequency"), "f").unit("Hz");
+    let x = measure.frequency();
     let units = view.scenario.units();
     let (low, high) = study.window();
-    let here = units.hertz(view.scenario.parameters.omega);
+    let (left, right) = (x.coordinate(low), x.coordinate(high));
+    let here = x.coordinate(units.hertz(view.scenario.parameters.omega));
     let colour = theme::tokens(ui).ruler;
-    let id = ("harvest", watched as u8, measure.axis().title());
-    let mut plot = plot_style::plot(ui, id, &x, measure.axis()).include_x(low).include_x(high);
+    let id = ("harvest", watched as u8, measure.axis().title(), x.is_logarithmic());
+    let mut plot = plot_style::plot(ui, id, x, measure.axis()).include_x(left).include_x(right);
     if watched != Watched::Tip && !view.design.logarithmic {
         plot = plot.include_y(0.0);
     }
@@ -151,15 +128,15 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, study: &HarvestStudy) {
         plot_style::points(plot, Series::Measured, tr("measured"), &measured);
         match (&safety, watched) {
             (Some(safety), Watched::Peak) => {
-                safety.voltage_lines(plot, low, &|volts| measure.coordinate(volts))
+                safety.voltage_lines(plot, left, &|volts| measure.coordinate(volts))
             }
-            (Some(safety), Watched::Tip) => safety.tip_lines(plot, low),
+            (Some(safety), Watched::Tip) => safety.tip_lines(plot, left),
             (_, Watched::Power) => super::design::bands::least_line(plot, view, study, &measure),
             _ => {}
         }
     });
     if let Some(at) = context.clicked(&shown) {
-        let frequency = shown.transform.value_from_position(at).x.clamp(low, high);
-        go_to(context, frequency);
+        let frequency = x.value(shown.transform.value_from_position(at).x);
+        go_to(context, frequency.max(low).min(high));
     }
 }

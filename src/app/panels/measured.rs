@@ -126,7 +126,7 @@ pub(super) fn over_frequency(context: &Context<'_>, watched: Watched, measure: &
     let file = context.bench.measured.file.as_ref().filter(|file| file.reading.domain == Domain::Frequency);
     match (watched, file) {
         (Watched::Voltage | Watched::Peak, Some(file)) => {
-            file.drawn.iter().map(|point| PlotPoint::new(point.x, measure.coordinate(point.y))).collect()
+            file.drawn.iter().map(|point| measure.place(point.x, point.y)).collect()
         }
         _ => Vec::new(),
     }

@@ -26,7 +26,7 @@ const KEYS: [(&str, &str); 24] = [
     (marked("F"), marked("fill the page with one plot after another")),
     (marked("Shift+F"), marked("fill the screen with the page")),
     (marked("Escape"), marked("show all plots; close; leave a field")),
-    (marked("P"), marked("pin the curves, or drop them")),
+    (marked("P"), marked("pin the curves, or drop them; on Design: pin the design")),
     (marked("B"), marked("let the beam move, or hold it")),
     (marked("Space"), marked("on Live: run or pause")),
     (marked(". ,"), marked("on Live: go on for a period, for a frame")),

@@ -116,13 +116,15 @@ fn switches(context: &mut Context<'_>, ui: &mut Ui, few: bool) {
         context.commands.push(Command::SetProjector(!large));
     }
     let pinned = context.session.pinned.is_some();
-    let (icon, label) = if pinned {
+    let (icon, label) = if context.view.tab == Tab::Design {
+        (Icon::Pin, tr("Pin this design"))
+    } else if pinned {
         (Icon::Close, tr("Drop the pinned curves"))
     } else {
         (Icon::Pin, tr("Pin: keep these curves as grey ghosts to compare with"))
     };
     if icon_button(ui, icon, label).clicked() {
-        context.commands.push(Command::Pin(!pinned));
+        context.commands.push(Command::pin(context.view.tab, pinned));
     }
 }
 

@@ -32,6 +32,8 @@ pub enum Page {
     Measured,
     /// Shaken by chirps and noise.
     Shake,
+    /// Pinned designs side by side.
+    Variants,
 }
 
 /// What is drawn over frequency.
@@ -145,6 +147,8 @@ pub struct DesignView {
     pub watched: Watched,
     /// Whether powers and voltages are drawn on a logarithmic scale.
     pub logarithmic: bool,
+    /// Whether the frequencies of the curves are on a logarithmic scale.
+    pub logarithmic_frequency: bool,
     /// Frequencies (Hz) of the curves; about the present one when absent.
     pub window: Option<(f64, f64)>,
     /// Power (W) that counts as usable; half of the highest when absent.
@@ -175,6 +179,7 @@ impl Default for DesignView {
             holds_acceleration: true,
             watched: Watched::default(),
             logarithmic: false,
+            logarithmic_frequency: false,
             window: None,
             least: None,
             diode_drop: 0.0,

@@ -33,6 +33,7 @@ macro_rules! panels {
             ShakenSpectrum shaken_spectrum
             ShakenPower shaken_power
             ShakenWith shaken_with
+            Variants variants
         }
     };
 }

@@ -59,6 +59,8 @@ pub enum Series {
     Beyond,
     /// Pinned for comparison: a thin grey line, or crosses.
     Ghost,
+    /// A pinned design, by its number from 0: dashes or dots of four kinds.
+    Variant(u8),
 }
 
 impl Series {
@@ -84,6 +86,10 @@ impl Series {
             Self::Measured => tokens.theory,
             Self::Limit | Self::Beyond => tokens.danger,
             Self::Ghost => tokens.ghost,
+            Self::Variant(0) => tokens.numeric,
+            Self::Variant(1) => tokens.theory,
+            Self::Variant(2) => tokens.poincare,
+            Self::Variant(_) => tokens.exact,
         }
     }
 
@@ -115,6 +121,10 @@ impl Series {
             Self::Limit => Pen::Line(1.6),
             Self::Beyond => Pen::Crosses(4.5),
             Self::Ghost => Pen::Line(1.0),
+            Self::Variant(0) => Pen::Dashes(2.2, 16.0),
+            Self::Variant(1) => Pen::Dots(2.4, 13.0),
+            Self::Variant(2) => Pen::Dashes(2.2, 6.0),
+            Self::Variant(_) => Pen::Dots(1.9, 6.0),
         }
     }
 

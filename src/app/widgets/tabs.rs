@@ -2,7 +2,7 @@
 
 use egui::{CornerRadius, Rect, Response, Sense, Ui, WidgetInfo, vec2};
 
-use super::icon;
+use super::{icon, row};
 use crate::app::{fonts, theme};
 
 /// Height of a small choice, in points.
@@ -46,7 +46,7 @@ pub fn chips<T: PartialEq + Copy>(ui: &mut Ui, name: &str, selected: &mut T, cho
     let width = chips_width(ui, selected, choices);
     begin_row(ui, width);
     let background = ui.painter().add(egui::Shape::Noop);
-    let row = ui.horizontal_wrapped(|ui| {
+    let contents = |ui: &mut Ui| {
         ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
         for (choice, label) in choices {
             let active = *choice == *selected;
@@ -66,7 +66,9 @@ pub fn chips<T: PartialEq + Copy>(ui: &mut Ui, name: &str, selected: &mut T, cho
                 *selected = *choice;
             }
         }
-    });
+    };
+    // A row that can be pushed aside is not broken.
+    let row = if row::is_low(ui.ctx()) { ui.horizontal(contents) } else { ui.horizontal_wrapped(contents) };
     let used = row.response.rect;
     let corners = theme::radius::CONTROL;
     let inside = egui::StrokeKind::Inside;

@@ -31,8 +31,8 @@ impl Bounds {
         Self { gap: None, ..*self }
     }
 
-    /// Of a motion's numbers in SI units.
-    fn demand(&self, measures: &Measures) -> Demand {
+    /// What a motion with these numbers in SI units asks of the device.
+    pub fn demand(&self, measures: &Measures) -> Demand {
         let ((low, high), beam) = (measures.tip, self.units.millimetres(1.0));
         Demand { tip: (low / beam, high / beam), ..measures.demand() }
     }

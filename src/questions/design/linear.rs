@@ -6,7 +6,7 @@ use super::{DesignError, Interval, Plant};
 use crate::dynamics::{Balance, Measures};
 use crate::model::{Parameter, ReducedSystem};
 use crate::scenario::Scenario;
-use crate::spacing::equally_spaced;
+use crate::spacing::spread;
 use crate::theory::{LinearResponse, spectrum::eigenvalues};
 
 /// Distances from a resonance, in its own widths, at which a curve has points.
@@ -70,11 +70,16 @@ pub struct LinearCurve {
     pub half_power: Interval,
 }
 
-/// The power of `plant` without its magnets for `omega` (dimensionless) in `window`, its base shaken as it says.
+/// The power of `plant` without its magnets for `omega` (dimensionless) in `window`, there at these `omegas` and more
+/// about the resonances, its base shaken as it says.
 ///
 /// # Errors
 /// [`DesignError`].
-pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<LinearCurve, DesignError> {
+pub fn linear_curve(
+    plant: &Plant,
+    window: (f64, f64),
+    omegas: impl Iterator<Item = f64>,
+) -> Result<LinearCurve, DesignError> {
     let system = plant.without_magnets()?;
     let units = &plant.units;
     let point = |omega: f64| -> Result<[f64; 5], DesignError> {
@@ -85,7 +90,7 @@ pub fn linear_curve(plant: &Plant, window: (f64, f64), count: usize) -> Result<L
     };
     // An undamped device has no steady state at its resonance.
     let power = |omega: f64| point(omega).map_or(f64::INFINITY, |point| point[2]);
-    let omegas = frequencies(&system, window, count)?;
+    let omegas = frequencies(&system, window, omegas)?;
     let place = peak(power, &omegas);
     let half = 0.5 * power(place);
     let below = omegas.iter().rev().copied().find(|omega| *omega < place && power(*omega) < half);
@@ -117,7 +122,7 @@ pub fn linear_peak(plant: &Plant, window: (f64, f64)) -> Result<(f64, f64), Desi
         let square = |response: LinearResponse| 0.5 * response.voltage.norm_sqr();
         response.map_or(f64::INFINITY, |response| plant.units.watts(plant.load * square(response)))
     };
-    let place = peak(power, &frequencies(&system, window, PEAK_POINTS)?);
+    let place = peak(power, &frequencies(&system, window, spread(window, false, PEAK_POINTS))?);
     Ok((place, power(place)))
 }
 
@@ -163,9 +168,13 @@ fn peak(power: impl Fn(f64) -> f64, omegas: &[f64]) -> f64 {
     highest_place(power, around, SECTIONS)
 }
 
-/// Equally spaced frequencies of the window, and more about the resonances of `system`.
-fn frequencies(system: &ReducedSystem, window: (f64, f64), count: usize) -> Result<Vec<f64>, DesignError> {
-    let mut omegas: Vec<f64> = equally_spaced(window, count.max(2)).collect();
+/// These frequencies, and more about the resonances of `system`, within the window.
+fn frequencies(
+    system: &ReducedSystem,
+    window: (f64, f64),
+    omegas: impl Iterator<Item = f64>,
+) -> Result<Vec<f64>, DesignError> {
+    let mut omegas: Vec<f64> = omegas.collect();
     for value in eigenvalues(system)?.into_iter().filter(|value| value.im > 0.0) {
         for distance in ABOUT_RESONANCE {
             omegas.extend([-1.0, 1.0].map(|side| value.im + side * distance * value.re.abs()));

@@ -152,7 +152,7 @@ fn shake() -> impl Strategy<Value = ShakeView> {
 }
 
 fn design() -> impl Strategy<Value = DesignView> {
-    const PAGES: [Page; 8] = [
+    const PAGES: [Page; 9] = [
         Page::Harvest,
         Page::Load,
         Page::Materials,
@@ -161,6 +161,7 @@ fn design() -> impl Strategy<Value = DesignView> {
         Page::Tolerances,
         Page::Measured,
         Page::Shake,
+        Page::Variants,
     ];
     const WATCHED: [Watched; 5] =
         [Watched::Power, Watched::PerG2, Watched::Voltage, Watched::Peak, Watched::Tip];
@@ -172,7 +173,7 @@ fn design() -> impl Strategy<Value = DesignView> {
         resonance().prop_map(Quantity::Threshold),
     ];
     let front = (select(&PAGES[..]), select(&WATCHED[..]), 1..=8_usize, resonance(), quantity);
-    let flags = any::<[bool; 3]>();
+    let flags = any::<[bool; 4]>();
     let window = option::of((within(FREQUENCIES), within(FREQUENCIES)));
     let watts = (option::of(within(POWERS)), within(DROPS), within(SCATTERS));
     (front, flags, window, watts, limits(), (search(), shake())).prop_map(
@@ -190,6 +191,7 @@ fn design() -> impl Strategy<Value = DesignView> {
                 holds_acceleration: flags[1],
                 watched,
                 logarithmic: flags[2],
+                logarithmic_frequency: flags[3],
                 window,
                 least,
                 diode_drop,

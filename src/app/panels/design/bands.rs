@@ -7,6 +7,7 @@ use super::held::held;
 use super::measure::Measure;
 use super::safety::Safety;
 use crate::app::bench::questions;
+use crate::app::bench::variant::highest;
 use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, tr};
 use crate::app::theme::{self, Tokens};
@@ -27,11 +28,11 @@ const LEAST: f64 = 1e-9;
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     Card::new(tr("Bands")).hint(&held(context.view)).hugging().show(ui, |ui| table(context, ui));
     ui.add_space(grid::GAP);
+    Card::new(tr("Frequencies")).hugging().show(ui, |ui| window(context, ui));
+    ui.add_space(grid::GAP);
     Card::new(tr("Best load")).hugging().show(ui, |ui| super::best_load::brief(context, ui));
     ui.add_space(grid::GAP);
     Card::new(tr("Limits")).hugging().show(ui, |ui| super::limits::controls(context, ui));
-    ui.add_space(grid::GAP);
-    Card::new(tr("Frequencies")).hugging().show(ui, |ui| window(context, ui));
 }
 
 /// The pieces of the curves that have bands; the first is the linear device, the second are the stable motions.
@@ -45,18 +46,19 @@ fn curves(study: &HarvestStudy) -> [(&'static str, Vec<Vec<HarvestPoint>>); 5] {
     ]
 }
 
-fn highest(pieces: &[Vec<HarvestPoint>]) -> Option<HarvestPoint> {
-    pieces.iter().flatten().copied().max_by(|a, b| a.measures.power.total_cmp(&b.measures.power))
+/// Whether a frequency (Hz) is an end of the window, beyond which what meets it may go on.
+pub(super) fn at_end((low, high): (f64, f64), hertz: f64) -> bool {
+    (hertz - low).min(high - hertz) < 1e-6 * (high - low)
 }
 
 /// Where a curve gives enough, and where it does so within the limits.
-struct Enough {
-    bands: Vec<Interval>,
+pub(super) struct Enough {
+    pub bands: Vec<Interval>,
     safe: Option<Vec<Interval>>,
 }
 
 impl Enough {
-    fn new(pieces: &[Vec<HarvestPoint>], least: f64, bounds: Option<Bounds>) -> Self {
+    pub(super) fn new(pieces: &[Vec<HarvestPoint>], least: f64, bounds: Option<Bounds>) -> Self {
         let safe = bounds.map(|bounds| usable(&bounds.powers_within(pieces), least));
         Self { bands: usable(&powers(pieces), least), safe }
     }
@@ -66,21 +68,38 @@ impl Enough {
         self.safe.as_deref().filter(|safe| *safe != self.bands.as_slice())
     }
 
-    /// In words, and how they are to be coloured when the limits cut something away.
-    fn in_words(&self, tokens: &Tokens) -> Option<(String, Color32)> {
+    /// In words, when the limits cut something away.
+    pub(super) fn in_words(&self, window: (f64, f64)) -> Option<String> {
         Some(match self.cut()? {
-            [] => (tr("none of it within the limits").to_owned(), tokens.danger),
-            safe => (fill("within the limits: {what}", &[("what", &list(safe, ", "))]), tokens.warning),
+            [] => tr("none of it within the limits").to_owned(),
+            safe => fill("within the limits: {what}", &[("what", &hertz_list(window, safe))]),
         })
+    }
+
+    /// How its width is to be coloured.
+    fn colour(&self, tokens: &Tokens) -> Color32 {
+        match self.cut() {
+            None => tokens.text_strong,
+            Some([]) => tokens.danger,
+            Some(_) => tokens.warning,
+        }
     }
 }
 
-fn list(intervals: &[Interval], between: &str) -> String {
-    intervals.iter().map(interval).collect::<Vec<_>>().join(between)
+/// Intervals of frequency in a row, with a sign where one may go on beyond the window.
+pub(super) fn hertz_list(window: (f64, f64), intervals: &[Interval]) -> String {
+    let end = |sign: &str, hertz: f64| {
+        let sign = if at_end(window, hertz) { sign } else { "" };
+        format!("{sign}{}", significant(hertz, 4))
+    };
+    let text = |band: &Interval| {
+        fill("{from} to {to} Hz", &[("from", &end("≤ ", band.from)), ("to", &end("≥ ", band.to))])
+    };
+    intervals.iter().map(text).collect::<Vec<_>>().join(", ")
 }
 
 /// The power (W) that counts as usable: the one chosen, or half of the highest.
-fn least(view: &View, study: &HarvestStudy) -> f64 {
+pub(super) fn least(view: &View, study: &HarvestStudy) -> f64 {
     view.design.least.unwrap_or_else(|| {
         let all = curves(study);
         let top = all
@@ -121,9 +140,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
         let bounds = if index == 0 { bounds.as_ref().map(Bounds::without_magnets) } else { bounds };
         Enough::new(&all[index].1, present, bounds)
     });
-    // What meets an end of the window may go on beyond it.
-    let (low, high) = study.window();
-    let at_end = |hertz: f64| (hertz - low).min(high - hertz) < 1e-6 * (high - low);
+    let at_end = |hertz: f64| at_end(study.window(), hertz);
     ui.spacing_mut().interact_size.y = 18.0;
     Grid::new("bands").num_columns(4).spacing([12.0, 4.0]).show(ui, |ui| {
         for text in ["", tr("highest"), tr("half power"), tr("enough")] {
@@ -151,32 +168,14 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
                 width if bands.is_empty() || width == 0.0 => tr("none").to_owned(),
                 width => format!("{further}{}", hertz(width)),
             };
-            let cut = enough.in_words(tokens);
-            let colour = cut.as_ref().map_or(tokens.text_strong, |(_, colour)| *colour);
-            let label = ui.label(small(&shown).color(colour));
+            let label = ui.label(small(&shown).color(enough.colour(tokens)));
             if !bands.is_empty() {
-                let said = cut.map(|(text, _)| format!("\n{text}")).unwrap_or_default();
-                label.on_hover_text(list(bands, "\n") + &said);
+                let said = enough.in_words(study.window()).map_or(String::new(), |text| format!("\n{text}"));
+                label.on_hover_text(hertz_list(study.window(), bands) + &said);
             }
             ui.end_row();
         }
     });
-    let stable = &enough[1];
-    let power = with_unit(present, "W");
-    let text = if stable.bands.is_empty() {
-        fill("No stable periodic motion gives {power} here.", &[("power", &power)])
-    } else {
-        let list = list(&stable.bands, ", ");
-        fill(
-            "At least {power} over {list} by stable periodic motions.",
-            &[("power", &power), ("list", &list)],
-        )
-    };
-    ui.add_space(2.0);
-    ui.add(egui::Label::new(small(&text).color(tokens.text)).wrap());
-    if let Some((text, colour)) = stable.in_words(tokens) {
-        ui.add(egui::Label::new(small(&text).color(colour)).wrap());
-    }
 }
 
 /// Chooses the power (W) that counts.
@@ -227,20 +226,20 @@ fn window(context: &mut Context<'_>, ui: &mut Ui) {
     }
 }
 
-/// Buttons for the windows about the natural frequencies.
+/// Buttons for the windows about the natural frequencies, and for one over all of them.
 fn presets(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(boundaries) = &context.session.boundaries else { return };
     let units = context.view.scenario.units();
-    let first = boundaries.frequencies.first().copied().unwrap_or(4.0);
-    let mut places = vec![(first, "ω₁"), (2.0 * first, "2ω₁")];
-    if let Some(second) = boundaries.frequencies.get(1) {
-        places.push((first + second, "ω₁+ω₂"));
-    }
+    let natural = &boundaries.frequencies;
+    let first = natural.first().copied().unwrap_or(4.0);
+    let last = natural.iter().copied().fold(2.0 * first, f64::max);
+    let sum = natural.get(1).map(|second| (first + second, "ω₁+ω₂"));
+    let places = [(first, "ω₁"), (2.0 * first, "2ω₁")].into_iter().chain(sum);
+    let windows = places.map(|(omega, name)| (name, (0.85 * omega, 1.15 * omega)));
     ui.horizontal_wrapped(|ui| {
-        for (omega, name) in places {
+        for (name, (low, high)) in windows.chain([(tr("all resonances"), (0.7 * first, 1.3 * last))]) {
             if ui.button(RichText::new(name).small()).clicked() {
-                let window = (units.hertz(0.85 * omega), units.hertz(1.15 * omega));
-                context.redesign(|design| design.window = Some(window));
+                context.redesign(|design| design.window = Some((units.hertz(low), units.hertz(high))));
             }
         }
     });

@@ -1,6 +1,7 @@
 //! The Design tab: what a device delivers in volts, watts and hertz, within which limits, and what would be better.
 
 pub(super) mod alignment;
+mod answer;
 pub(super) mod bands;
 mod beside;
 mod best_load;
@@ -23,6 +24,7 @@ mod summary;
 mod tests;
 mod tolerances;
 mod trust;
+pub(in crate::app) mod variants;
 
 use egui::Ui;
 
@@ -49,6 +51,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         Page::Search => beside(context, ui, search::cards),
         Page::Tolerances => beside(context, ui, tolerances::cards),
         Page::Measured => beside(context, ui, measured::cards),
+        Page::Variants => variants::show(context, ui),
         Page::Shake => {
             shaking::show(context, ui);
             ui.add_space(grid::GAP);
@@ -61,7 +64,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
 pub(in crate::app) fn ask(studies: &mut Studies, view: &View) {
     studies.deliver(&view.scenario);
     match view.design.page {
-        Page::Harvest => studies.load(view),
+        Page::Harvest | Page::Variants => studies.load(view),
         Page::Materials => studies.tabulate(questions::materials(view)),
         Page::Trust => studies.tabulate(questions::trust(view)),
         Page::Load | Page::Search | Page::Tolerances | Page::Measured | Page::Shake => {}
@@ -78,6 +81,7 @@ fn choose(context: &mut Context<'_>, ui: &mut Ui) {
         (Page::Tolerances, tr("Tolerances")),
         (Page::Measured, tr("Measured")),
         (Page::Shake, tr("Shake")),
+        (Page::Variants, tr("Variants")),
     ];
     let mut page = context.view.design.page;
     if tabs(ui, &mut page, &pages) {

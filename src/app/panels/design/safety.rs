@@ -1,11 +1,12 @@
 //! The limits of the device in view: what keeps them, and what they look like in plots.
 
+use egui::Color32;
 use egui_plot::{PlotPoint, PlotUi};
 
 use crate::app::bench;
 use crate::app::session::Session;
 use crate::app::text::{fill, tr};
-use crate::app::theme;
+use crate::app::theme::{self, Tokens};
 use crate::app::view::View;
 use crate::app::widgets::number::with_unit;
 use crate::app::widgets::plot_style;
@@ -13,8 +14,9 @@ use crate::dynamics::Measures;
 use crate::export::Pen;
 use crate::export::figure::Anchor;
 use crate::model::Demand;
-use crate::model::limits::{Check, LimitKind, Standing};
+use crate::model::limits::{Assessment, Check, LimitKind, Standing, sag};
 use crate::questions::design::Bounds;
+use crate::scenario::Scenario;
 use crate::scheduler::piece::fingerprint;
 
 /// The limits of the device in view.
@@ -127,8 +129,51 @@ pub(in crate::app) fn in_words(check: &Check) -> String {
     }
 }
 
+/// How a motion stands to the limits: in a word, and the check that is nearest to failing or else the reason.
+pub(super) struct Judged {
+    pub assessment: Assessment,
+    pub word: &'static str,
+    pub detail: String,
+}
+
+impl Judged {
+    /// Of a motion of the device of `scenario` that asks so much of it; none where that is no device.
+    pub(super) fn of(safety: &Safety, scenario: &Scenario, demand: &Demand) -> Option<Self> {
+        let sag = sag(&bench::device(scenario).ok()?);
+        let checks = safety.checks(demand);
+        let worst = || worst(&checks).map(in_words).unwrap_or_default();
+        let assessment = Assessment::of(&checks, &safety.0.limits, &sag);
+        let (word, detail) = match assessment {
+            Assessment::WithinLimits => (tr("within limits"), worst()),
+            Assessment::Unchecked => (tr("unchecked"), tr("no limit of the voltage is known").to_owned()),
+            Assessment::ModelNotValid => (tr("model not valid"), in_words(&sag)),
+            Assessment::Marginal => (tr("marginal"), worst()),
+            Assessment::Exceeded => (tr("unsafe"), worst()),
+        };
+        Some(Self { assessment, word, detail })
+    }
+
+    /// The word, with the reason where something stands against it.
+    pub(super) fn in_words(&self) -> String {
+        match self.assessment {
+            Assessment::WithinLimits => self.word.to_owned(),
+            _ => format!("{} ({})", self.word, self.detail),
+        }
+    }
+
+    /// The colour of its word.
+    pub(super) fn colour(&self, tokens: &Tokens) -> Color32 {
+        match self.assessment {
+            Assessment::WithinLimits => tokens.ok,
+            Assessment::Unchecked => tokens.text_weak,
+            Assessment::ModelNotValid | Assessment::Marginal => tokens.warning,
+            Assessment::Exceeded => tokens.danger,
+        }
+    }
+}
+
 /// The worst of the checks: the one with the least margin.
-pub(super) fn worst(checks: &[Check]) -> Option<&Check> {
+fn worst(checks: &[Check]) -> Option<&Check> {
     checks.iter().min_by(|a, b| a.margin.total_cmp(&b.margin))
 }
 

@@ -2,12 +2,14 @@
 
 use egui::{RichText, Ui};
 
-use super::safety::{self, Safety};
+use super::answer;
+use super::safety::{self, Judged, Safety};
 use crate::app::bench;
 use crate::app::panels::Context;
 use crate::app::panels::verdict::in_a_line;
 use crate::app::text::{fill, say, tr};
 use crate::app::theme;
+use crate::app::view::design::Page;
 use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::{Card, Tile, tiles};
 use crate::dynamics::Motion;
@@ -21,24 +23,29 @@ const TILE: f32 = 140.0;
 /// Draws the card.
 pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     let found = context.studies.operating(&context.view.scenario);
-    Card::new("").hugging().show(ui, |ui| match found {
-        None => {
-            ui.label(
-                RichText::new(tr("computing what the device delivers ..."))
-                    .color(theme::tokens(ui).text_weak),
-            );
+    Card::new("").hugging().show(ui, |ui| {
+        if on_harvest(context) {
+            answer::show(context, ui);
         }
-        Some((Err(message), current)) => {
-            let tokens = theme::tokens(ui);
-            let colour = if current { tokens.danger } else { tokens.text_weak };
-            ui.add(egui::Label::new(RichText::new(say(message) + ".").color(colour)).wrap());
-        }
-        Some((Ok(operating), current)) => {
-            if !current {
-                ui.multiply_opacity(0.55);
+        match found {
+            None => {
+                ui.label(
+                    RichText::new(tr("computing what the device delivers ..."))
+                        .color(theme::tokens(ui).text_weak),
+                );
             }
-            numbers(context, ui, operating);
-            sentences(context, ui, operating);
+            Some((Err(message), current)) => {
+                let tokens = theme::tokens(ui);
+                let colour = if current { tokens.danger } else { tokens.text_weak };
+                ui.add(egui::Label::new(RichText::new(say(message) + ".").color(colour)).wrap());
+            }
+            Some((Ok(operating), current)) => {
+                if !current {
+                    ui.multiply_opacity(0.55);
+                }
+                numbers(context, ui, operating);
+                sentences(context, ui, operating);
+            }
         }
     });
 }
@@ -81,7 +88,10 @@ fn numbers(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
     );
     let input = fill("of {power} put in", &[("power", &with_unit(harvest.input, "W"))]);
     let closes = gap_in_words(context, harvest);
-    let (word, colour, detail) = safe(context, ui, harvest);
+    let (word, colour, detail) = judged(context, operating)
+        .map_or(("–", tokens.text_weak, String::new()), |judged| {
+            (judged.word, judged.colour(tokens), judged.detail)
+        });
     let plain =
         |name, (value, unit): &'_ (String, String), detail| (name, value.clone(), unit.clone(), detail);
     let all = [
@@ -123,27 +133,15 @@ fn gap_in_words(context: &Context<'_>, harvest: &Harvest) -> String {
     })
 }
 
-/// Whether the motion keeps the limits: a word, its colour, and the check that is nearest to failing.
-fn safe(context: &Context<'_>, ui: &Ui, harvest: &Harvest) -> (&'static str, egui::Color32, String) {
-    let tokens = theme::tokens(ui);
-    let Some(safety) = Safety::of(context.view, context.session) else {
-        return ("–", tokens.text_weak, String::new());
-    };
-    let checks = safety.checks(&harvest.demand);
-    let detail = safety::worst(&checks).map(safety::in_words).unwrap_or_default();
-    let Ok(device) = bench::device(&context.view.scenario) else {
-        return ("–", tokens.text_weak, String::new());
-    };
-    let sag = sag(&device);
-    match Assessment::of(&checks, &safety.0.limits, &sag) {
-        Assessment::WithinLimits => (tr("within limits"), tokens.ok, detail),
-        Assessment::Unchecked => {
-            (tr("unchecked"), tokens.text_weak, tr("no limit of the voltage is known").to_owned())
-        }
-        Assessment::ModelNotValid => (tr("model not valid"), tokens.warning, safety::in_words(&sag)),
-        Assessment::Marginal => (tr("marginal"), tokens.warning, detail),
-        Assessment::Exceeded => (tr("unsafe"), tokens.danger, detail),
-    }
+/// How the motion reached stands to the limits.
+fn judged(context: &Context<'_>, operating: &Operating) -> Option<Judged> {
+    let demand = operating.reached.harvest.as_ref()?.demand;
+    Judged::of(&Safety::of(context.view, context.session)?, &context.view.scenario, &demand)
+}
+
+/// Whether the sentence about the curves over frequency stands above.
+fn on_harvest(context: &Context<'_>) -> bool {
+    context.view.design.page == Page::Harvest
 }
 
 /// Class, gains, losses, and what to know.
@@ -157,7 +155,8 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
             &[("times", &times(gain)), ("linear", &linear)],
         ));
     }
-    let best = context.studies.linear_at_its_best();
+    let told = |frequency| on_harvest(context) && answer::names_peak(context, frequency);
+    let best = context.studies.linear_at_its_best().filter(|best| !told(best.frequency));
     if let (Some(linear), Some(harvest)) = (best, &operating.reached.harvest)
         && linear.power > 0.0
     {
@@ -179,11 +178,6 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
             losses += &fill(", in the dielectric {power}", &[("power", &with_unit(harvest.dielectric, "W"))]);
         }
         facts.push(losses);
-    }
-    let kept = context.bench.pinned.as_ref().and_then(|pinned| pinned.operating.as_ref());
-    if let Some(kept) = kept.and_then(|kept| kept.reached.harvest.as_ref()) {
-        let (volts, watts) = (with_unit(kept.measures.v_rms, "V"), with_unit(kept.measures.power, "W"));
-        facts.push(fill("pinned: {volts}, {watts}", &[("volts", &volts), ("watts", &watts)]));
     }
     let mut remarks = Vec::new();
     if let Some(forced) = operating.forced.filter(|forced| !forced.stable) {
@@ -211,7 +205,9 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
             );
         }
         let sag = sag(&device);
-        if sag.standing == Standing::Exceeded {
+        let said =
+            judged(context, operating).map(|judged| judged.assessment) == Some(Assessment::ModelNotValid);
+        if sag.standing == Standing::Exceeded && !(said && on_harvest(context)) {
             let sags = safety::in_words(&sag);
             remarks.push(fill("the beam {sags}, which the model counts as small", &[("sags", &sags)]));
         }

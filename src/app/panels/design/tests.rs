@@ -3,8 +3,14 @@
 use egui::Role;
 
 use crate::app::bench::questions;
+use crate::app::bench::variant::highest;
+use crate::app::command::Command;
+use crate::app::history::Hand;
 use crate::app::rehearsal::Desk;
+use crate::app::session::Status;
 use crate::app::widgets::harness::Node;
+use crate::app::widgets::number::{significant, with_unit};
+use crate::questions::harvest::HarvestStudy;
 
 fn desk(width: f32, page: &str) -> Desk {
     let stored = format!(
@@ -15,7 +21,7 @@ fn desk(width: f32, page: &str) -> Desk {
 
 #[test]
 fn every_page_draws_on_a_phone_and_on_a_desk_without_labels_over_each_other() {
-    for page in ["harvest", "load", "materials", "trust", "search", "tolerances", "measured"] {
+    for page in ["harvest", "load", "materials", "trust", "search", "tolerances", "measured", "variants"] {
         for width in [360.0, 1440.0] {
             let mut desk = desk(width, page);
             desk.work(20);
@@ -155,4 +161,167 @@ fn in_place_of_the_sine_noise_shakes_explore_and_the_verdict_steps_aside() {
     desk.app.view.tab = crate::app::view::Tab::Stability;
     desk.work(3);
     assert!(!desk.harness.nodes.iter().any(|node| node.label == "Shaken by: noise"));
+}
+
+/// A page with all of it computed.
+fn computed(width: f32, stored: &str) -> Desk {
+    let mut desk = Desk::new(width, 2400.0, stored);
+    compute(&mut desk);
+    desk
+}
+
+fn compute(desk: &mut Desk) {
+    for _ in 0..40_000 {
+        desk.app.logic(&desk.harness.context.clone());
+        if desk.app.session.status() == Status::Done && !desk.app.crew.borrow().is_busy() {
+            desk.app.follow();
+            if !desk.app.crew.borrow().is_busy() {
+                break;
+            }
+        }
+    }
+    desk.work(3);
+}
+
+fn press(desk: &mut Desk, role: Role, label: &str) {
+    let at = desk.harness.find(role, label).bounds.center();
+    let Desk { app, harness } = desk;
+    harness.click(at, |ui| app.ui(ui));
+    desk.work(2);
+}
+
+#[test]
+fn one_sentence_says_what_the_device_gives_over_the_window() {
+    let said = |design: &str| {
+        let numbers = r#"{"parameters":{"omega":4.0,"beta":1e-4},"t_end":100}"#;
+        let desk = computed(360.0, &format!(r#"{{"scenario":{numbers},"tab":"design","design":{design}}}"#));
+        let label = desk.harness.find(Role::Label, "Shaken at ").label.replace('\u{a0}', " ");
+        let crew = desk.app.crew.borrow();
+        let study: &HarvestStudy = crew.studies.lanes.study().expect("curves");
+        let best = study.stable_pieces().concat().into_iter();
+        let best = best.max_by(|a, b| a.measures.power.total_cmp(&b.measures.power)).expect("a motion");
+        let gives =
+            format!("{} at {} Hz", with_unit(best.measures.power, "W"), significant(best.frequency, 4));
+        assert!(label.contains(&gives), "{label}: {gives}");
+        label
+    };
+    let usual = said(r#"{"window":[1.2,1.6]}"#);
+    for part in [
+        "0.000379 g",
+        " into 7.63 MΩ, ",
+        " or more from 1.4",
+        " model not valid (sags by ",
+        "; without magnets ≥ ",
+    ] {
+        assert!(usual.contains(part), "{usual}: {part}");
+    }
+    let beyond = said(r#"{"window":[1.35,1.45],"least":1e-5,"limits":{"voltage":[5.0,5.0]}}"#);
+    assert!(beyond.contains(", nowhere 10.0 µW or more, unsafe (peak 5.94 V, limit 5.00 V)"), "{beyond}");
+    let cut = said(r#"{"window":[1.35,1.45],"least":1e-6,"limits":{"voltage":[5.0,5.0]}}"#);
+    assert!(cut.contains("limit 5.00 V), within the limits: 1.4"), "{cut}");
+}
+
+#[test]
+fn on_a_logarithmic_axis_frequencies_are_spread_drawn_and_clicked_as_it_says() {
+    let design = r#"{"window":[1.0,9.0],"logarithmic_frequency":true}"#;
+    let numbers = r#"{"parameters":{"omega":15,"beta":1e-4},"t_end":100}"#;
+    let mut desk =
+        Desk::new(1440.0, 900.0, &format!(r#"{{"scenario":{numbers},"tab":"design","design":{design}}}"#));
+    desk.work(30);
+    let (_, question, _) = questions::harvest(&desk.app.view, &desk.app.session);
+    assert!(question.logarithmic);
+    let points = {
+        let crew = desk.app.crew.borrow();
+        crew.studies.lanes.study::<HarvestStudy>().expect("curves").linear_points()
+    };
+    let [first, last] = [points[0].frequency, points[points.len() - 1].frequency];
+    let below = points.iter().filter(|point| point.frequency < (first * last).sqrt()).count();
+    assert!(2 * below > points.len() - 40, "{below} of {} below the middle", points.len());
+    let corner = desk.harness.find(Role::Button, "Enlarge: Over frequency").bounds;
+    let mut clicked = |x: f32| {
+        let Desk { app, harness } = &mut desk;
+        harness.click(egui::pos2(corner.right() - x, corner.bottom() + 150.0), |ui| app.ui(ui));
+        desk.work(2);
+        let view = &desk.app.view;
+        view.scenario.units().hertz(view.scenario.parameters.omega)
+    };
+    let [low, middle, high] = [420.0, 270.0, 120.0].map(&mut clicked);
+    assert!(low > first && high < last && high > 1.5 * low, "{low} {high}");
+    assert!((middle * middle / (low * high) - 1.0).abs() < 2e-3, "{low} {middle} {high}");
+}
+
+#[test]
+fn one_window_holds_all_resonances() {
+    let mut desk = Desk::new(1440.0, 2400.0, r#"{"scenario":{"t_end":100},"tab":"design"}"#);
+    desk.work(3);
+    let button = desk.harness.find(Role::Button, "all resonances").bounds.center();
+    let Desk { app, harness } = &mut desk;
+    harness.click(button, |ui| app.ui(ui));
+    desk.work(2);
+    let (low, high) = questions::window(&desk.app.view, &desk.app.session);
+    let natural = &desk.app.session.boundaries.as_ref().expect("boundaries").frequencies;
+    assert!(
+        natural.len() > 1 && natural.iter().all(|omega| low < 0.9 * omega && high > 1.1 * omega),
+        "{low} {high}"
+    );
+}
+
+#[test]
+fn pinned_designs_stand_beside_the_present_one_until_they_are_removed() {
+    let numbers = r#"{"parameters":{"omega":4.0,"beta":1e-4},"t_end":100}"#;
+    let design = r#"{"page":"variants","window":[1.3,1.5]}"#;
+    for width in [360.0, 1440.0] {
+        let mut desk =
+            computed(width, &format!(r#"{{"scenario":{numbers},"tab":"design","design":{design}}}"#));
+        press(&mut desk, Role::Button, "Pin this design");
+        let told = |desk: &Desk, text: &str| desk.harness.nodes.iter().any(|node| node.label.contains(text));
+        assert!(told(&desk, "Remove A"));
+        let first = desk.app.view.scenario.clone();
+        // The same again is no other.
+        press(&mut desk, Role::Button, "Pin this design");
+        assert_eq!(desk.app.bench.variants.len(), 1);
+        let mut other = first.clone();
+        other.parameters.kappa *= 4.0;
+        desk.app.step(Command::Show(Box::new(other.clone())), Hand::default());
+        desk.app.follow();
+        compute(&mut desk);
+        press(&mut desk, Role::Button, "Pin this design");
+        let texts: Vec<&str> = desk.harness.nodes.iter().map(|node| node.label.as_str()).collect();
+        let rows = |name: &str| texts.iter().filter(|text| **text == name).count();
+        // On a phone the designs stand below each other, each with its own names of rows.
+        let tables = if width < 500.0 { 3 } else { 1 };
+        let (load, length) = (rows("load resistance"), rows("beam length"));
+        assert!(load == tables && length == 0, "{width}: {load} {length} {texts:?}");
+        let all = desk.app.bench.variants.clone();
+        let ([a, b], crew) = ([&all[0], &all[1]], desk.app.crew.borrow());
+        assert_eq!((a.name.as_str(), b.name.as_str(), &b.scenario), ("A", "B", &other));
+        let study: &HarvestStudy = crew.studies.lanes.study().expect("curves");
+        let best = b.best().expect("a motion").0.measures.power;
+        assert_eq!(highest(&study.stable_pieces()).map(|point| point.measures.power), Some(best));
+        assert!(a.best().expect("a motion").0.measures.power != best && b.load.is_some());
+        for design in [a, b] {
+            let best = design.best().expect("a motion").0;
+            let gives =
+                format!("{} at {} Hz", with_unit(best.measures.power, "W"), significant(best.frequency, 4));
+            assert!(texts.iter().any(|text| text.ends_with(&gives)), "{gives}: {texts:?}");
+        }
+        drop(crew);
+        press(&mut desk, Role::Button, "Make A the present design");
+        assert_eq!(desk.app.view.scenario, first);
+        press(&mut desk, Role::TextInput, "Name of B");
+        let Desk { app, harness } = &mut desk;
+        harness.text("loaded", |ui| app.ui(ui));
+        harness.key(egui::Key::Enter, egui::Modifiers::NONE, |ui| app.ui(ui));
+        desk.work(2);
+        assert!(desk.app.bench.variants[1].name.contains("loaded"), "{}", desk.app.bench.variants[1].name);
+        // Another session goes on with them; what cannot be used is left out.
+        let next = Desk::new(width, 900.0, &desk.app.stored());
+        assert_eq!(next.app.bench.variants, desk.app.bench.variants);
+        let spoiled = desk.app.stored().replacen("\"gap\":0.", "\"gap\":\"x\",\"was\":0.", 1);
+        assert_eq!(Desk::new(width, 900.0, &spoiled).app.bench.variants.len(), 1);
+        press(&mut desk, Role::Button, "Remove A");
+        assert_eq!(desk.app.bench.variants.len(), 1);
+        desk.app.undo();
+        assert_eq!(desk.app.bench.variants.len(), 2);
+    }
 }

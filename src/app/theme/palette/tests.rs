@@ -79,7 +79,7 @@ struct PlotOf {
 }
 
 /// What the panels draw into one plot.
-const PLOTS: [PlotOf; 16] = [
+const PLOTS: [PlotOf; 17] = [
     PlotOf { name: "stability map", lines: &[Published, Coupled, Exact], marks: &[Ghost] },
     // The exact boundary of another device, while that of this one is computed.
     PlotOf { name: "stability map before", lines: &[Published, Coupled, Ghost], marks: &[Ghost] },
@@ -96,9 +96,10 @@ const PLOTS: [PlotOf; 16] = [
     PlotOf { name: "response", lines: &[Stable, Unstable, Ghost], marks: &[Up, Down, Unsettled] },
     PlotOf {
         name: "harvest",
-        lines: &[Linear, Stable, Unstable, Ghost],
+        lines: &[Linear, Stable, Unstable],
         marks: &[FromRest, Up, Down, Beyond, Measured],
     },
+    PlotOf { name: "variants", lines: &[Stable, Variant(0), Variant(1), Variant(2), Variant(3)], marks: &[] },
     PlotOf { name: "tolerances", lines: &[Numeric, Linear], marks: &[] },
     PlotOf { name: "store", lines: &[Stable, Linear, Best], marks: &[] },
     PlotOf { name: "load", lines: &[Linear, Stable, Unstable, Theory, Best], marks: &[Up, Beyond] },
