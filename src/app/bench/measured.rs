@@ -10,6 +10,7 @@ use crate::app::clock::milliseconds;
 use crate::app::session::Shown;
 use crate::app::text::say;
 use crate::app::view::View;
+use crate::app::view::design::FREQUENCIES;
 use crate::model::Dimension;
 use crate::questions::design::measured::{Ask, Columns, Import, Kind, Layout, decode, detect, detect_with};
 use crate::questions::design::record::{Clock, Level, sorted};
@@ -228,6 +229,13 @@ impl Measured {
 }
 
 impl File {
+    /// Lowest and highest frequency (Hz) of a file over frequency, once it is read.
+    pub(in crate::app) fn frequencies(&self) -> Option<(f64, f64)> {
+        let of_frequency = self.reading.domain == Domain::Frequency && self.measures.is_some();
+        let (low, high) = extent(&self.points).filter(|_| of_frequency)?;
+        (FREQUENCIES.0 <= low && low < high && high <= FREQUENCIES.1).then_some((low, high))
+    }
+
     fn finish(&mut self) {
         let Some(import) = self.import.take() else { return };
         self.over_range = import.over_range();

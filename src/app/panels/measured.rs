@@ -5,7 +5,7 @@ use egui_plot::PlotPoint;
 
 use super::design::measure::Measure;
 use super::design::{alignment, columns, fitting};
-use super::spec::{Place, Spec};
+use super::spec::{Asking, Place, Spec};
 use super::{Context, grid};
 use crate::app::bench::measured::{Domain, File};
 use crate::app::command::Command;
@@ -22,9 +22,18 @@ use crate::questions::design::record::Level;
 use crate::questions::harvest::HarvestStudy;
 
 /// The plot.
-pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Measured), |_| tr("Measured"), contents)
-    .hint(hint)
-    .asking(|asking| asking.studies.harvest(asking.view, asking.session));
+pub(super) const PANEL: Spec =
+    Spec::new(Place::Page(Page::Measured), |_| tr("Measured"), contents).hint(hint).asking(ask);
+
+/// Of a file over frequency the curves are those of its own frequencies.
+fn ask(asking: &mut Asking<'_>) {
+    let Some(window) = asking.bench.measured.file.as_ref().and_then(File::frequencies) else {
+        return asking.studies.harvest(asking.view, asking.session);
+    };
+    let mut view = asking.view.clone();
+    view.design.window = Some(window);
+    asking.studies.harvest(&view, asking.session);
+}
 
 fn hint(context: &Context<'_>) -> String {
     match context.bench.measured.progress() {

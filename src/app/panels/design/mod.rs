@@ -41,8 +41,11 @@ use crate::app::widgets::tabs;
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     choose(context, ui);
     ui.add_space(4.0);
-    summary::show(context, ui);
-    ui.add_space(grid::GAP);
+    // It is about the sine.
+    if context.view.design.page != Page::Shake {
+        summary::show(context, ui);
+        ui.add_space(grid::GAP);
+    }
     match context.view.design.page {
         Page::Harvest => beside(context, ui, bands::show),
         Page::Load => beside(context, ui, best_load::cards),

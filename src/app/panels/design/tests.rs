@@ -143,6 +143,17 @@ fn a_load_is_read_in_the_unit_that_suits_it() {
 }
 
 #[test]
+fn beside_measured_frequencies_the_curves_are_those_of_these() {
+    let mut desk = desk(1440.0, "measured");
+    desk.app.bench.measured.open("sweep.csv", b"f [Hz],v [V]\n1.1,0.5\n1.2,5.7\n1.4,0.2\n".to_vec());
+    desk.work(10);
+    let crew = desk.app.crew.borrow();
+    let points = crew.studies.lanes.study::<HarvestStudy>().expect("curves").linear_points();
+    let (first, last) = (points[0].frequency, points[points.len() - 1].frequency);
+    assert!((first - 1.1).abs() < 1e-9 && (last - 1.4).abs() < 1e-9, "{first} {last}");
+}
+
+#[test]
 fn in_place_of_the_sine_noise_shakes_explore_and_the_verdict_steps_aside() {
     let stored = r#"{"scenario":{"model":{"force":"exact"},"parameters":{"alpha":0.005}},"design":{"shake":{"duration":20}}}"#;
     let mut desk = Desk::new(1440.0, 900.0, stored);
