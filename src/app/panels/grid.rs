@@ -9,6 +9,10 @@ pub(super) const LEAST_HEIGHT: f32 = 270.0;
 pub(super) const LEAST_HEIGHT_ALONE: f32 = 380.0;
 /// Height a card has, more or less, where there are more rows than fit the page.
 const USUAL_HEIGHT: f32 = 330.0;
+/// Where whole rows would be lower than this, the page scrolls anyway and its cards are as high as suits them: rows of choices and
+/// legends leave the plots too little.
+const LOW: f32 = 340.0;
+const HIGH: f32 = 400.0;
 /// What is seen of the row that begins below the page: its titles, so that one knows of it.
 const PEEK: f32 = 36.0;
 /// Width from which two cards stand side by side.
@@ -37,9 +41,10 @@ pub(super) fn grid<T>(ui: &mut Ui, cards: &[T], draw: &mut dyn FnMut(&mut Ui, &T
 fn row_height(room: f32, rows: usize, columns: usize) -> f32 {
     let least = if columns == 1 { LEAST_HEIGHT_ALONE } else { LEAST_HEIGHT };
     let in_sight = (room / USUAL_HEIGHT).round().clamp(1.0, rows as f32);
-    let (hidden, least) =
-        if in_sight < rows as f32 { (GAP + PEEK, least.max(USUAL_HEIGHT)) } else { (0.0, least) };
-    ((room - hidden - GAP * (in_sight - 1.0)) / in_sight).floor().max(least)
+    let scrolls = in_sight < rows as f32;
+    let hidden = if scrolls { GAP + PEEK } else { 0.0 };
+    let height = ((room - hidden - GAP * (in_sight - 1.0)) / in_sight).floor();
+    if scrolls && columns > 1 && height < LOW { HIGH } else { height.max(least) }
 }
 
 /// A place of this size.
@@ -60,7 +65,9 @@ mod tests {
         // Two rows share the page, however low it is, down to a height that can be read.
         assert_eq!(row_height(750.0, 2, 2), 370.0);
         assert_eq!(row_height(560.0, 2, 2), 275.0);
-        assert_eq!(row_height(300.0, 2, 2), USUAL_HEIGHT);
+        assert_eq!(row_height(300.0, 2, 2), HIGH);
+        // On a low laptop whole rows would leave plots of 120 points under their legends.
+        assert_eq!(row_height(640.0, 3, 2), HIGH);
         // Of three rows two are seen on a laptop, with the titles of the third; all on a projector.
         let height = row_height(750.0, 3, 2);
         assert_eq!(750.0 - 2.0 * (height + GAP), PEEK);
