@@ -5,10 +5,13 @@ use serde_json::{Map, Value};
 
 use super::App;
 use super::link;
+use super::panels::design::shaking;
 use super::reading::Reading;
 use super::session::Status;
 use super::text::{self, Language};
 use super::view::{Tab, View};
+use crate::questions::shaken_run::ShakenRun;
+use crate::scheduler::{Study as _, Table};
 use crate::sentence::Sentence;
 
 /// The entries that have native controls, by their names in links and in `index.html`.
@@ -30,11 +33,17 @@ impl App {
     /// The signs of this frame. While `hand_moves` there is no verdict in them.
     pub fn signs(&self, hand_moves: bool) -> Signs {
         let status = self.session.status();
-        let rests = status == Status::Done && !hand_moves && self.has_verdict();
+        let rests = status == Status::Done && !hand_moves;
+        let answer = if self.view.shaken().is_some() {
+            self.shaken_answer()
+        } else {
+            let shown = self.session.shown.as_ref().filter(|_| self.has_verdict());
+            shown.map(|shown| shown.generation)
+        };
         Signs {
             view: self.view.clone(),
             steps: self.history.can(),
-            answer: self.session.shown.as_ref().filter(|_| rests).map(|shown| shown.generation),
+            answer: answer.filter(|_| rests),
             language: text::language(),
             failure: match status {
                 Status::Failed(why) => Some(why),
@@ -48,6 +57,13 @@ impl App {
         let crew = self.crew.borrow();
         let current = crew.studies.inspection(&self.view.scenario).is_some_and(|(_, current)| current);
         current || self.view.tab == Tab::Design
+    }
+
+    /// Number of the runs under anything but the sine, once all are there.
+    fn shaken_answer(&self) -> Option<u64> {
+        let crew = self.crew.borrow();
+        let runs = crew.studies.lanes.study::<Table<ShakenRun>>()?;
+        runs.finished().then(|| crew.studies.lanes.generation::<Table<ShakenRun>>())
     }
 
     /// The mirror as JSON: `entries` by name, `undo`, `redo`, and `verdict`, null while it is being computed.
@@ -70,6 +86,10 @@ impl App {
     }
 
     fn spoken_verdict(&self) -> Option<String> {
+        if self.view.shaken().is_some() {
+            let said = shaking::said(&self.view, &self.bench, &self.crew.borrow().studies);
+            return Some(said.into_iter().map(|(_, sentence)| sentence).collect::<Vec<_>>().join(" "));
+        }
         let shown = self.session.shown.as_ref()?;
         let crew = self.crew.borrow();
         let found = crew.studies.inspection(&shown.scenario).filter(|(_, current)| *current);
@@ -128,6 +148,19 @@ mod tests {
         let refusal = app.change("beta", "7").expect_err("out of range");
         assert_eq!(refusal, "beta = 7 (allowed are 0 to 0.2)");
         assert_eq!(app.view, view);
+    }
+
+    #[test]
+    fn under_noise_the_means_are_told_in_place_of_the_verdict() {
+        let mut app = app();
+        app.view.scenario.parameters.alpha = 5e-3;
+        app.change("design.shake.duration", "20").expect("a duration");
+        app.change("design.shake.everywhere", "true").expect("noise");
+        for _ in 0..200 {
+            app.logic(&egui::Context::default());
+        }
+        let told = mirror(&app)["verdict"].as_str().expect("means").to_owned();
+        assert!(told.starts_with("On average it gives ") && told.contains("nothing repeats"), "{told}");
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub(super) mod optimum;
 pub(in crate::app) mod safety;
 pub(super) mod search;
 pub(super) mod shaken_by;
-pub(super) mod shaking;
+pub(in crate::app) mod shaking;
 mod store;
 mod summary;
 #[cfg(test)]

@@ -3,10 +3,13 @@
 use egui::{RichText, Ui};
 
 use super::shaken_by;
+use crate::app::bench::Bench;
 use crate::app::bench::shaking::{band, motion, question, runs};
+use crate::app::crew::Studies;
 use crate::app::panels::Context;
 use crate::app::text::{fill, say, tr};
 use crate::app::theme;
+use crate::app::view::View;
 use crate::app::view::shake::ShakenBy;
 use crate::app::widgets::Card;
 use crate::app::widgets::number::{significant, with_unit};
@@ -28,8 +31,16 @@ pub(in crate::app::panels) fn ask(asking: &mut super::super::spec::Asking<'_>) {
 pub(in crate::app::panels) fn found<'a>(
     context: &Context<'a>,
 ) -> Option<Result<Vec<&'a Found>, &'a Failure>> {
-    let study: &Table<ShakenRun> = context.studies.lanes.study()?;
-    let wanted = runs(context.view, context.bench)?;
+    found_in(context.view, context.bench, context.studies)
+}
+
+fn found_in<'a>(
+    view: &View,
+    bench: &Bench,
+    studies: &'a Studies,
+) -> Option<Result<Vec<&'a Found>, &'a Failure>> {
+    let study: &Table<ShakenRun> = studies.lanes.study()?;
+    let wanted = runs(view, bench)?;
     (study.asked() == wanted.asked()).then(|| study.found().flatten().collect())
 }
 
@@ -40,7 +51,11 @@ pub(in crate::app::panels) fn summary(context: &Context<'_>) -> Option<ShakeAnsw
 
 /// Why there is nothing to show yet.
 pub(in crate::app::panels) fn waiting(context: &Context<'_>) -> &'static str {
-    let brought = motion(context.view, context.bench, context.view.design.shake.level).is_some();
+    waiting_for(context.view, context.bench)
+}
+
+fn waiting_for(view: &View, bench: &Bench) -> &'static str {
+    let brought = motion(view, bench, view.design.shake.level).is_some();
     if brought { tr("computing") } else { tr("waits for a recording") }
 }
 
@@ -115,33 +130,37 @@ fn power(found: &Harvested) -> String {
     }
 }
 
-fn sentence(context: &Context<'_>, ui: &mut Ui) {
-    let tokens = theme::tokens(ui);
-    let line = |ui: &mut Ui, text: String, colour| {
-        ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
-    };
-    let found = match found(context) {
+/// How a sentence is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::app) enum Meant {
+    /// It says what came out.
+    Found,
+    /// Something ended early or failed.
+    Warning,
+    /// It is said beside.
+    Aside,
+}
+
+/// What the runs so far say, in sentences.
+pub(in crate::app) fn said(view: &View, bench: &Bench, studies: &Studies) -> Vec<(Meant, String)> {
+    let found = match found_in(view, bench, studies) {
         Some(Ok(found)) => found,
-        Some(Err(failure)) => return line(ui, say(failure), tokens.danger),
+        Some(Err(failure)) => return vec![(Meant::Warning, say(failure))],
         None => Vec::new(),
     };
-    let answer = question(context.view, context.bench).and_then(|(_, shake)| shake.summary(&found));
-    let Some(answer) = answer else {
-        return line(ui, waiting(context).to_owned(), tokens.text_weak);
-    };
-    let ended = |word: &str, at: f64| {
-        let time = significant(at, 3);
-        if word == "contact" {
+    let answer = question(view, bench).and_then(|(_, shake)| shake.summary(&found));
+    let Some(answer) = answer else { return vec![(Meant::Aside, waiting_for(view, bench).to_owned())] };
+    let mut lines = Vec::new();
+    if answer.outcome != "completed" {
+        let time = significant(answer.t_outcome, 3);
+        let text = if answer.outcome == "contact" {
             fill("The magnets touch after {time} s: there the model ends.", &[("time", &time)])
         } else {
             fill("The tip escapes after {time} s: this force law lets it go.", &[("time", &time)])
-        }
-    };
-    if answer.outcome != "completed" {
-        line(ui, ended(answer.outcome, answer.t_outcome), tokens.danger);
+        };
+        lines.push((Meant::Warning, text));
     }
-    let by = context.view.design.shake.by;
-    let noise = by == ShakenBy::Noise;
+    let by = view.design.shake.by;
     if let (Some(own), Some(linear)) = (&answer.measured, &answer.linear) {
         let values = [power(own), power(linear)];
         let values = [("own", &values[0] as &dyn Say), ("linear", &values[1])];
@@ -158,38 +177,53 @@ fn sentence(context: &Context<'_>, ui: &mut Ui) {
                 &values,
             ),
         };
-        line(ui, text, tokens.text);
+        lines.push((Meant::Found, text));
     }
-    if let Some(gain) = answer.gain {
-        let gained = significant(gain, 3);
-        let text = match answer.gain_error {
-            Some(error) => {
-                let beyond = (gain - 1.0).abs() > 2.0 * error;
-                let verdict = match (beyond, gain > 1.0) {
-                    (true, true) => tr("The magnets help."),
-                    (true, false) => tr("The magnets cost power."),
-                    (false, _) => tr("Whether the magnets help is not decided by runs so short."),
-                };
-                let ratio = fill(
-                    "That is {gain} ± {error} times as much.",
-                    &[("gain", &gained), ("error", &significant(error, 2))],
-                );
-                format!("{ratio} {verdict}")
-            }
-            None if noise => {
-                let ratio = fill("That is {gain} times as much.", &[("gain", &gained)]);
-                format!("{ratio} {}", tr("The runs are too short to say how sure that is."))
-            }
-            None => fill("That is {gain} times as much.", &[("gain", &gained)]),
-        };
-        line(ui, text, tokens.text);
-    }
-    let unfinished = context.studies.lanes.study::<Table<ShakenRun>>().filter(|study| !study.finished());
+    lines.extend(answer.gain.map(|gain| (Meant::Found, gained(by, gain, answer.gain_error))));
+    let unfinished = studies.lanes.study::<Table<ShakenRun>>().filter(|study| !study.finished());
     let text = match (unfinished, by) {
         (Some(study), _) => super::super::computing(study.progress()),
         (None, ShakenBy::Noise) => tr("Under noise nothing repeats: there is no verdict, no Poincaré map and no branch, only means with their errors.").to_owned(),
         (None, ShakenBy::Chirp) => tr("Where the motion jumps up and where it jumps down differ: that is hysteresis.").to_owned(),
         (None, ShakenBy::Recorded) => tr("One recording is one sample: how much of these means is chance cannot be known from it.").to_owned(),
     };
-    line(ui, text, tokens.text_weak);
+    lines.push((Meant::Aside, text));
+    lines
+}
+
+/// What the magnets make of the power, and how sure that is.
+fn gained(by: ShakenBy, gain: f64, error: Option<f64>) -> String {
+    let times = significant(gain, 3);
+    let ratio = || fill("That is {gain} times as much.", &[("gain", &times)]);
+    match error {
+        Some(error) => {
+            let beyond = (gain - 1.0).abs() > 2.0 * error;
+            let verdict = match (beyond, gain > 1.0) {
+                (true, true) => tr("The magnets help."),
+                (true, false) => tr("The magnets cost power."),
+                (false, _) => tr("Whether the magnets help is not decided by runs so short."),
+            };
+            let ratio = fill(
+                "That is {gain} ± {error} times as much.",
+                &[("gain", &times), ("error", &significant(error, 2))],
+            );
+            format!("{ratio} {verdict}")
+        }
+        None if by == ShakenBy::Noise => {
+            format!("{} {}", ratio(), tr("The runs are too short to say how sure that is."))
+        }
+        None => ratio(),
+    }
+}
+
+fn sentence(context: &Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    for (meant, text) in said(context.view, context.bench, context.studies) {
+        let colour = match meant {
+            Meant::Found => tokens.text,
+            Meant::Warning => tokens.danger,
+            Meant::Aside => tokens.text_weak,
+        };
+        ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
+    }
 }
