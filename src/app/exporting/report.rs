@@ -42,7 +42,9 @@ impl App {
         let found = crew.studies.inspection(&shown.scenario).filter(|(_, current)| *current);
         let verdict = found.map(|(found, _)| &found.verdict);
         let reading = Reading::new(shown, self.session.boundaries.as_ref(), verdict);
-        let explore = View { tab: Tab::Explore, enlarged: None, ..self.view.clone() };
+        let mut explore = View { tab: Tab::Explore, enlarged: None, ..self.view.clone() };
+        // As the verdict is: under the sine.
+        explore.design.shake.everywhere = false;
         let plots = self.figures(&explore, None);
         let mut plots: Vec<Vec<Figure>> = plots.into_iter().map(|figure| vec![figure]).collect();
         for index in 1..plots.len() {

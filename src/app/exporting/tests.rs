@@ -1,4 +1,5 @@
 use super::*;
+use crate::app::bench::Bench;
 use crate::app::bench::variant::Change;
 use crate::app::command::Command;
 use crate::app::history::Hand;
@@ -169,10 +170,17 @@ fn the_solver_answers_what_the_programs_ask() {
     for link in [
         "v=1&alpha=1e-4&beta=0.01&omega=8.0969&force=taylor5&t_end=300&initial=0+0.1+0+0+0",
         "v=1&tab=sweep&sweep.count=3&sweep.dwell.discarded=10&sweep.dwell.kept=4&omega=8",
-        "v=1&tab=design&omega=8.0969&resistance=1e6&scaling=consistent",
+        "v=1&tab=design&omega=8.0969&resistance=1e6&scaling=consistent&design.window=1.3+1.4",
+        "v=1&tab=design&design.page=load",
+        "v=1&tab=design&design.page=tolerances&design.window=1.3+1.4",
+        "v=1&tab=design&design.page=trust",
+        "v=1&tab=design&design.page=shake&design.shake.by=chirp&design.shake.duration=20&alpha=0.005&force=exact",
+        "v=1&design.shake.everywhere=true&design.shake.duration=20&design.shake.level=1e-3&alpha=0.005",
     ] {
         let view = crate::app::link::read(link, &View::default()).0;
-        let request = request(&view, &Session::default());
+        let shakes = link.contains("shake");
+        let request = request(&view, &Session::default(), &Bench::default());
+        assert_eq!(request.contains("\"task\":\"shake\""), shakes, "{request}");
         let answer = solve(&request);
         assert!(answer.is_ok(), "{request}: {answer:?}");
     }
@@ -186,7 +194,7 @@ fn the_chart_in_view_is_asked_for() {
     let mut session = Session::default();
     session.boundaries = Some(Boundaries::new(structure, &system));
     for (layer, quantity) in [(Quantity::Multiplier, "multiplier"), (Quantity::VRms, "v_rms")] {
-        let request = request(&View { layer, ..view.clone() }, &session);
+        let request = request(&View { layer, ..view.clone() }, &session, &Bench::default());
         let asked: serde_json::Value = serde_json::from_str(&request).expect("JSON");
         assert_eq!((asked["task"].as_str(), asked["quantity"].as_str()), (Some("chart"), Some(quantity)));
         let omega = asked["omega"]["from"].as_f64().zip(asked["omega"]["to"].as_f64());

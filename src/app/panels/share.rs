@@ -191,7 +191,7 @@ fn copy_as(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory) {
             let text =
                 if copied { tr("Copied").to_owned() } else { fill("Copy as {name}", &[("name", &name)]) };
             if ui.button(text).on_hover_text(tr("A program that asks the solver the same")).clicked() {
-                let question = request(context.view, context.session);
+                let question = request(context.view, context.session, context.bench);
                 let program =
                     if name == "Rust" { snippet::rust(&question) } else { snippet::python(&question) };
                 ui.ctx().copy_text(program);
