@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::response::check_range;
 use crate::dynamics::attractors::signature::Signature;
 use crate::dynamics::{ESCAPE_DISPLACEMENT, Effort, IntegrationError, Settler};
+use crate::model::layers::LayerNumber;
 use crate::model::{Dimension, ModelError, Parameter, ReducedSystem, Units, state_dimension};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::mosaic::Place;
@@ -26,6 +27,8 @@ pub enum Coordinate {
     Parameter(Parameter),
     /// A dimension of the device in SI units; the other dimensions are kept, and so the ten numbers follow.
     Dimension(Dimension),
+    /// A number of the device's layers, which decide the dimensions that follow from them.
+    Layer(LayerNumber),
     /// A component of the state at t = 0: q_1..q_N, dq_1/dt..dq_N/dt, v by index from 0.
     Start(usize),
 }
@@ -36,6 +39,7 @@ impl Coordinate {
         match self {
             Self::Parameter(parameter) => parameter.field().to_owned(),
             Self::Dimension(dimension) => dimension.field().to_owned(),
+            Self::Layer(number) => number.field().to_owned(),
             Self::Start(i) if i < modes => format!("q{}", i + 1),
             Self::Start(i) if i < 2 * modes => format!("dq{}/dt", i + 1 - modes),
             Self::Start(_) => "v".to_owned(),
@@ -48,6 +52,7 @@ impl Coordinate {
         start
             .or_else(|| Parameter::named(name).map(Self::Parameter))
             .or_else(|| Dimension::named(name).map(Self::Dimension))
+            .or_else(|| LayerNumber::named(name).map(Self::Layer))
     }
 
     /// Lowest and highest value on it: the own range of a parameter or a dimension; ten beam lengths for a displacement,
@@ -56,6 +61,7 @@ impl Coordinate {
         let most = match self {
             Self::Parameter(parameter) => return parameter.range(),
             Self::Dimension(dimension) => return dimension.range(),
+            Self::Layer(number) => return number.range(),
             Self::Start(i) if i < modes => ESCAPE_DISPLACEMENT,
             Self::Start(i) if i < 2 * modes => MOST_VELOCITY,
             Self::Start(_) => MOST_VOLTAGE,
@@ -68,6 +74,7 @@ impl Coordinate {
         match self {
             Self::Parameter(parameter) => Some(scenario.parameters.get(parameter)),
             Self::Dimension(dimension) => scenario.device().ok().map(|device| device.get(dimension)),
+            Self::Layer(number) => scenario.device().ok()?.layers?.number(number),
             Self::Start(i) => scenario.initial.as_ref().map_or(Some(0.0), |start| start.get(i).copied()),
         }
     }
@@ -84,6 +91,10 @@ impl Coordinate {
                 dimension.check(range.1)?;
                 let highest = self.limits(modes).1;
                 ModelError::check(dimension.field(), range.1, (range.0, highest), "").map(|_| ())
+            }
+            Self::Layer(number) => {
+                ModelError::check(number.field(), range.0, number.range(), "")?;
+                ModelError::check(number.field(), range.1, (range.0, number.range().1), "").map(|_| ())
             }
             Self::Start(value) => {
                 let maximum = state_dimension(modes) - 1;
@@ -112,6 +123,14 @@ pub fn at_place(
             Coordinate::Dimension(dimension) => {
                 let device = scenario.device()?.with(dimension, *value);
                 scenario.set_device(device, scenario.scaling)?;
+            }
+            Coordinate::Layer(number) => {
+                let device = scenario.device()?;
+                let missing = || ModelError::NoLayer { field: number.field() };
+                let mut layers = device.layers.ok_or_else(missing)?;
+                *layers.number_mut(number).ok_or_else(missing)? = *value;
+                layers.check()?;
+                scenario.set_device(device.with_layers(layers), scenario.scaling)?;
             }
             Coordinate::Start(i) => {
                 let modes = scenario.model.modes;
@@ -211,7 +230,7 @@ impl MotionPlane {
         let mut set = self.scenario.parameters;
         let mut initial = start.to_vec();
         let sides = [self.x.0, self.y.0];
-        let in_si = sides.iter().any(|side| matches!(side, Coordinate::Dimension(_)));
+        let in_si = sides.iter().any(|side| matches!(side, Coordinate::Dimension(_) | Coordinate::Layer(_)));
         if in_si {
             // A sensible dimension may still make a number that the model does not take.
             match at_place(&self.scenario, &sides, &place) {
@@ -222,7 +241,7 @@ impl MotionPlane {
         for (coordinate, value) in sides.into_iter().zip(place).filter(|_| !in_si) {
             match coordinate {
                 Coordinate::Parameter(parameter) => *set.get_mut(parameter) = value,
-                Coordinate::Dimension(_) => {}
+                Coordinate::Dimension(_) | Coordinate::Layer(_) => {}
                 Coordinate::Start(i) => {
                     coordinate.check(self.scenario.model.modes, (value, value))?;
                     initial[i] = value;

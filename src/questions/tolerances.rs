@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 use super::checks::class;
 use super::design::find::{Evaluation, FindQuestion, Objective, Variable};
 use super::design::tolerance::{
-    Distribution, Lean, deviates, dimensions, lean, resonance_frequency, threshold,
+    Distribution, Lean, coordinates, deviates, lean, resonance_frequency, threshold,
 };
 use super::error::{RequestError, failed};
 use super::find::Evaluate;
 use super::motions::Coordinate;
 use super::question::Question;
 use super::subject::ACCELERATION_UNIT;
-use crate::model::{Dimension, Limits, ModelError};
+use crate::model::{Limits, ModelError};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
 use crate::theory::Resonance;
@@ -94,8 +94,8 @@ pub struct Nominal {
 /// What one dimension does.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NamedLean {
-    /// The dimension.
-    pub name: &'static str,
+    /// The dimension, or the number of a layer by its place in a request's device.
+    pub name: String,
     /// Its value (SI).
     pub value: f64,
     /// Per cent per per cent.
@@ -104,14 +104,14 @@ pub struct NamedLean {
 }
 
 /// The dimension that matters most.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Most {
     /// For the power.
-    pub power: Option<&'static str>,
+    pub power: Option<String>,
     /// For the resonance frequency.
-    pub frequency: Option<&'static str>,
+    pub frequency: Option<String>,
     /// For the threshold.
-    pub threshold: Option<&'static str>,
+    pub threshold: Option<String>,
 }
 
 /// What the sampled devices give.
@@ -135,16 +135,17 @@ impl Question for Tolerances {
     type Answer = TolerancesAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<TolerancesAnswer, RequestError> {
+        let modes = scenario.model.modes;
         let mut study = ToleranceStudy::new(scenario, self.clone())?;
         complete_within(&mut study, budget);
         failed(study.failure())?;
         let mut sensitivities: Vec<NamedLean> = study
             .leans()
-            .map(|(dimension, value, lean)| NamedLean { name: dimension.field(), value, lean: *lean })
+            .map(|(dimension, value, lean)| NamedLean { name: dimension.name(modes), value, lean: *lean })
             .collect();
         let size = |lean: &NamedLean| lean.lean.power.map_or(-1.0, f64::abs);
         sensitivities.sort_by(|a, b| size(b).total_cmp(&size(a)));
-        let most = |of: fn(&Lean) -> Option<f64>| study.most(of).map(|(dimension, _)| dimension.field());
+        let most = |of: fn(&Lean) -> Option<f64>| study.most(of).map(|(dimension, _)| dimension.name(modes));
         let most = Most {
             power: most(|lean| lean.power),
             frequency: most(|lean| lean.frequency),
@@ -192,8 +193,8 @@ impl Piece for Meant {
 pub struct Leaning {
     /// The device.
     pub scenario: Scenario,
-    /// The dimension.
-    pub dimension: Dimension,
+    /// The dimension, or the number of a layer.
+    pub dimension: Coordinate,
     /// Whose threshold.
     pub resonance: Resonance,
 }
@@ -211,7 +212,7 @@ impl Piece for Leaning {
 #[derive(Debug, Clone)]
 pub struct ToleranceStudy {
     asked: (Scenario, Tolerances),
-    dimensions: Vec<(Dimension, f64)>,
+    dimensions: Vec<(Coordinate, f64)>,
     /// Standard deviations over the values, one a dimension.
     deviations: Vec<f64>,
     question: FindQuestion,
@@ -234,14 +235,16 @@ impl ToleranceStudy {
         asked.limits.validate()?;
         ModelError::check("deviation", asked.deviation, SCATTERS, "")?;
         counted("samples", asked.samples, SAMPLES)?;
-        let dimensions = dimensions(&scenario)?;
+        let dimensions = coordinates(&scenario)?;
+        let modes = scenario.model.modes;
         let mut deviations = vec![asked.deviation; dimensions.len()];
         for (i, scatter) in asked.scatter.iter().enumerate() {
             let field = || format!("scatter[{i}]");
             ModelError::check(&format!("{}.deviation", field()), scatter.deviation, SCATTERS, "")?;
-            let known = dimensions.iter().position(|(dimension, _)| dimension.field() == scatter.name);
+            let known = dimensions.iter().position(|(dimension, _)| dimension.name(modes) == scatter.name);
             let place = known.ok_or_else(|| {
-                let names: Vec<&str> = dimensions.iter().map(|(dimension, _)| dimension.field()).collect();
+                let names: Vec<String> =
+                    dimensions.iter().map(|(dimension, _)| dimension.name(modes)).collect();
                 RequestError::Field {
                     field: format!("{}.name", field()),
                     problem: format!("`{}` is not available: allowed are {}", scatter.name, names.join(", ")),
@@ -250,8 +253,8 @@ impl ToleranceStudy {
             deviations[place] = scatter.deviation;
         }
         // Ranges play no role in an evaluation.
-        let variable = |(dimension, value): &(Dimension, f64)| Variable {
-            coordinate: Coordinate::Dimension(*dimension),
+        let variable = |(dimension, value): &(Coordinate, f64)| Variable {
+            coordinate: *dimension,
             range: (*value, *value),
             logarithmic: false,
         };
@@ -283,13 +286,13 @@ impl ToleranceStudy {
     }
 
     /// Dimensions with their values and what is known that they do.
-    pub fn leans(&self) -> impl Iterator<Item = (Dimension, f64, &Lean)> {
+    pub fn leans(&self) -> impl Iterator<Item = (Coordinate, f64, &Lean)> {
         let known = self.dimensions.iter().zip(&self.leans);
         known.filter_map(|((dimension, value), lean)| Some((*dimension, *value, lean.as_ref()?)))
     }
 
     /// The dimension that does most to something, and how much, of those known.
-    pub fn most(&self, of: fn(&Lean) -> Option<f64>) -> Option<(Dimension, f64)> {
+    pub fn most(&self, of: fn(&Lean) -> Option<f64>) -> Option<(Coordinate, f64)> {
         let known = self.leans().filter_map(|(dimension, _, lean)| Some((dimension, of(lean)?)));
         known.filter(|(_, lean)| *lean != 0.0).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
     }
@@ -335,7 +338,7 @@ impl ToleranceStudy {
         let moved = self.deviations.iter().filter(|deviation| **deviation > 0.0).count();
         let mut deviates = deviates(index, moved).into_iter();
         let places = self.dimensions.iter().zip(&self.deviations);
-        let value = |((_, value), deviation): (&(Dimension, f64), &f64)| match *deviation {
+        let value = |((_, value), deviation): (&(Coordinate, f64), &f64)| match *deviation {
             deviation if deviation > 0.0 => value * (1.0 + deviation * deviates.next().unwrap_or(0.0)),
             _ => *value,
         };

@@ -156,7 +156,7 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
         sent(&Meant { question: question.clone(), resonance: Resonance::First }),
         sent(&Leaning {
             scenario: question.scenario.clone(),
-            dimension: Dimension::BeamLength,
+            dimension: Coordinate::Dimension(Dimension::BeamLength),
             resonance: Resonance::First,
         }),
         sent(&Voltages {

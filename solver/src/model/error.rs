@@ -51,6 +51,11 @@ pub enum ModelError {
         /// How many are needed.
         needed: usize,
     },
+    /// A number of a layer that the device does not have.
+    NoLayer {
+        /// Its place in a request's device.
+        field: &'static str,
+    },
     /// Both sides of a chart are the same coordinate.
     SameSides {
         /// Name of the coordinate.
@@ -112,6 +117,7 @@ impl Say for ModelError {
             Self::StateLength { given, needed } => {
                 not_available(&said("numbers in initial", &[]), given, (needed, needed))
             }
+            Self::NoLayer { field } => said("{field}: the device has no such layer", &[("field", field)]),
             Self::SameSides { field } => {
                 said("both sides of the chart are {field}: they must differ", &[("field", field)])
             }

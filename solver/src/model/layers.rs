@@ -86,6 +86,113 @@ pub struct Layers {
     pub epoxy: Option<Sheet>,
 }
 
+/// One number of a section, by which devices scatter or a search goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, SerBin, DeBin)]
+#[serde(rename_all = "snake_case")]
+pub enum LayerNumber {
+    /// Width of the beam.
+    Width,
+    /// Thickness of the substrate.
+    SubstrateThickness,
+    /// Its modulus.
+    SubstrateModulus,
+    /// Its density.
+    SubstrateDensity,
+    /// Thickness of each plate of ceramic.
+    CeramicThickness,
+    /// Its modulus.
+    CeramicModulus,
+    /// Its density.
+    CeramicDensity,
+    /// Its piezoelectric constant.
+    D31,
+    /// Its permittivity.
+    Permittivity,
+    /// Thickness of each layer of glue.
+    EpoxyThickness,
+    /// Its modulus.
+    EpoxyModulus,
+    /// Its density.
+    EpoxyDensity,
+}
+
+impl LayerNumber {
+    /// All of them, in the order of a request.
+    pub const ALL: [Self; 12] = [
+        Self::Width,
+        Self::SubstrateThickness,
+        Self::SubstrateModulus,
+        Self::SubstrateDensity,
+        Self::CeramicThickness,
+        Self::CeramicModulus,
+        Self::CeramicDensity,
+        Self::D31,
+        Self::Permittivity,
+        Self::EpoxyThickness,
+        Self::EpoxyModulus,
+        Self::EpoxyDensity,
+    ];
+
+    /// Its place in a request's device, and lowest and highest value in SI units.
+    const fn row(self) -> (&'static str, (f64, f64)) {
+        match self {
+            Self::Width => ("layers.width", WIDTH),
+            Self::SubstrateThickness => ("layers.substrate.thickness", THICKNESS_OR_NONE),
+            Self::SubstrateModulus => ("layers.substrate.youngs_modulus", MODULUS),
+            Self::SubstrateDensity => ("layers.substrate.density", DENSITY),
+            Self::CeramicThickness => ("layers.ceramic.thickness", THICKNESS),
+            Self::CeramicModulus => ("layers.ceramic.youngs_modulus", MODULUS),
+            Self::CeramicDensity => ("layers.ceramic.density", DENSITY),
+            Self::D31 => ("layers.ceramic.d31", D31),
+            Self::Permittivity => ("layers.ceramic.permittivity", PERMITTIVITY),
+            Self::EpoxyThickness => ("layers.epoxy.thickness", THICKNESS_OR_NONE),
+            Self::EpoxyModulus => ("layers.epoxy.youngs_modulus", MODULUS),
+            Self::EpoxyDensity => ("layers.epoxy.density", DENSITY),
+        }
+    }
+
+    /// Its place in a request's device.
+    pub const fn field(self) -> &'static str {
+        self.row().0
+    }
+
+    /// Lowest and highest value (SI).
+    pub const fn range(self) -> (f64, f64) {
+        self.row().1
+    }
+
+    /// The one at this place of a request's device.
+    pub fn named(field: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|number| number.field() == field)
+    }
+}
+
+impl Layers {
+    /// One of its numbers (SI); none of a glue that is not there.
+    pub fn number_mut(&mut self, number: LayerNumber) -> Option<&mut f64> {
+        use LayerNumber as N;
+        Some(match number {
+            N::Width => &mut self.width,
+            N::SubstrateThickness => &mut self.substrate.thickness,
+            N::SubstrateModulus => &mut self.substrate.youngs_modulus,
+            N::SubstrateDensity => &mut self.substrate.density,
+            N::CeramicThickness => &mut self.ceramic.thickness,
+            N::CeramicModulus => &mut self.ceramic.youngs_modulus,
+            N::CeramicDensity => &mut self.ceramic.density,
+            N::D31 => &mut self.ceramic.d31,
+            N::Permittivity => &mut self.ceramic.permittivity,
+            N::EpoxyThickness => &mut self.epoxy.as_mut()?.thickness,
+            N::EpoxyModulus => &mut self.epoxy.as_mut()?.youngs_modulus,
+            N::EpoxyDensity => &mut self.epoxy.as_mut()?.density,
+        })
+    }
+
+    /// One of its numbers (SI); none of a glue that is not there.
+    pub fn number(mut self, number: LayerNumber) -> Option<f64> {
+        self.number_mut(number).copied()
+    }
+}
+
 /// What a layer of a section is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LayerKind {

@@ -8,7 +8,8 @@ use super::harvest::{Lasting, lasting};
 use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
 use crate::dynamics::bifurcations::tongue::Window;
-use crate::model::{Dimension, ModelError};
+use crate::model::layers::LayerNumber;
+use crate::model::{Dimension, Layers, ModelError};
 use crate::questions::motions::{Coordinate, at_place};
 use crate::scenario::Scenario;
 use crate::theory::{Resonance, spectrum::eigenvalues};
@@ -50,6 +51,24 @@ pub fn dimensions(scenario: &Scenario) -> Result<Vec<(Dimension, f64)>, ModelErr
     Ok(all.filter(|(_, value)| *value > 0.0 && value.is_finite()).collect())
 }
 
+/// The same as coordinates. What layers decide of a beam does not scatter by itself: their own numbers do.
+///
+/// # Errors
+/// [`ModelError`] when there is no device.
+pub fn coordinates(scenario: &Scenario) -> Result<Vec<(Coordinate, f64)>, ModelError> {
+    let layers = scenario.device()?.layers;
+    let itself = |dimension: &Dimension| layers.is_none() || !Layers::DECIDED.contains(dimension);
+    let all = dimensions(scenario)?.into_iter().filter(|(dimension, _)| itself(dimension));
+    let mut all: Vec<(Coordinate, f64)> =
+        all.map(|(dimension, value)| (Coordinate::Dimension(dimension), value)).collect();
+    let numbers = LayerNumber::ALL.into_iter();
+    let given = numbers.filter_map(|number| Some((number, layers?.number(number)?)));
+    all.extend(
+        given.filter(|(_, value)| *value != 0.0).map(|(number, value)| (Coordinate::Layer(number), value)),
+    );
+    Ok(all)
+}
+
 /// The motion that the start of `scenario` leads to.
 fn motion(scenario: &Scenario) -> Result<Lasting, DesignError> {
     let plant = Plant::new(scenario)?;
@@ -84,15 +103,15 @@ fn elasticity(low: Option<f64>, high: Option<f64>, step: f64) -> Option<f64> {
     Some((high / low).ln() / ((1.0 + step) / (1.0 - step)).ln())
 }
 
-/// What `dimension` does to the device of `scenario`.
+/// What one of the [`coordinates`] does to the device of `scenario`.
 ///
 /// # Errors
 /// [`DesignError`] when the device beside it is none.
-pub fn lean(scenario: &Scenario, dimension: Dimension, resonance: Resonance) -> Result<Lean, DesignError> {
-    let value = scenario.device()?.get(dimension);
+pub fn lean(scenario: &Scenario, coordinate: Coordinate, resonance: Resonance) -> Result<Lean, DesignError> {
+    let value = coordinate.value(scenario).unwrap_or(f64::NAN);
     let beside = |step: f64| {
         let place = [value * (1.0 + step)];
-        at_place(scenario, &[Coordinate::Dimension(dimension)], &place)
+        at_place(scenario, &[coordinate], &place)
     };
     let (low, high) = (beside(-STEP)?, beside(STEP)?);
     let (a, b) = (motion(&low)?, motion(&high)?);
@@ -185,6 +204,47 @@ impl Distribution {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::ElectricalScaling;
+    use crate::questions::design::published::UNIMORPH;
+
+    #[test]
+    fn layers_scatter_in_place_of_what_they_decide_and_scale_as_plates_do() {
+        // A plate alone: its frequency goes with every thickness together, with the root of every modulus over every density,
+        // and not with its width, which scales all of it.
+        let mut device = UNIMORPH.device();
+        device.tip_mass = 0.0;
+        device.resistance = 10.0;
+        let mut scenario = Scenario::default();
+        scenario.set_device(device, ElectricalScaling::Consistent).expect("a device");
+        let all = coordinates(&scenario).expect("a device");
+        assert!(all.iter().all(|(coordinate, _)| {
+            !matches!(coordinate, Coordinate::Dimension(decided) if Layers::DECIDED.contains(decided))
+        }));
+        let frequency = |coordinate: Coordinate| {
+            let value = coordinate.value(&scenario).expect("there");
+            let at = |step: f64| {
+                let moved = at_place(&scenario, &[coordinate], &[value * (1.0 + step)]).expect("a device");
+                resonance_frequency(&moved).expect("a system")
+            };
+            elasticity(at(-STEP), at(STEP), STEP).expect("a frequency")
+        };
+        let sum = |part: &str| -> f64 {
+            let these = all.iter().filter(|(coordinate, _)| coordinate.name(2).ends_with(part));
+            these.map(|(coordinate, _)| frequency(*coordinate)).sum()
+        };
+        for (part, expected) in
+            [(".thickness", 1.0), ("youngs_modulus", 0.5), (".density", -0.5), (".width", 0.0)]
+        {
+            let found = sum(part);
+            assert!((found - expected).abs() < 1e-4, "{part}: {found}");
+        }
+        assert!((frequency(Coordinate::Dimension(Dimension::BeamLength)) + 2.0).abs() < 1e-4);
+        // A glue that is not there cannot be changed.
+        let glue = Coordinate::Layer(LayerNumber::EpoxyThickness);
+        let refused = at_place(&scenario, &[glue], &[1e-5]).expect_err("no glue");
+        assert_eq!(refused.to_string(), "layers.epoxy.thickness: the device has no such layer");
+        assert_eq!(Coordinate::named("layers.epoxy.thickness", 2), Some(glue));
+    }
 
     #[test]
     fn points_are_spread_evenly_and_deviates_are_normal() {

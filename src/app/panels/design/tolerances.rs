@@ -7,8 +7,9 @@ use crate::app::text::{fill, say, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::app::widgets::{Card, ParameterSlider};
-use crate::model::Dimension;
+use crate::model::layers::LayerNumber;
 use crate::questions::design::tolerance::Lean;
+use crate::questions::motions::Coordinate;
 use crate::questions::tolerances::ToleranceStudy;
 use crate::scheduler::Study as _;
 
@@ -70,7 +71,7 @@ fn scatter(context: &mut Context<'_>, ui: &mut Ui) {
 fn table(context: &Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     let Some(study) = context.studies.lanes.study::<ToleranceStudy>() else { return };
-    let mut rows: Vec<(Dimension, Lean)> =
+    let mut rows: Vec<(Coordinate, Lean)> =
         study.leans().map(|(dimension, _, lean)| (dimension, *lean)).collect();
     let size = |lean: &Lean| lean.power.map_or(-1.0, f64::abs);
     rows.sort_by(|a, b| size(&b.1).total_cmp(&size(&a.1)));
@@ -83,8 +84,7 @@ fn table(context: &Context<'_>, ui: &mut Ui) {
         }
         ui.end_row();
         for (dimension, lean) in rows {
-            let fact = dimension.fact();
-            ui.add(egui::Label::new(RichText::new(tr(fact.title)).small()).wrap());
+            ui.add(egui::Label::new(RichText::new(name(dimension)).small()).wrap());
             for (value, most) in [lean.power, lean.frequency, lean.threshold].into_iter().zip(&most) {
                 let text = value.map_or("–".to_owned(), |value| format!("{value:+.2}"));
                 let text = RichText::new(text.replace('-', "−")).small();
@@ -97,4 +97,29 @@ fn table(context: &Context<'_>, ui: &mut Ui) {
     });
     let text = tr("A dash: the motion changes its class within 0.1 %, or there is no tongue.");
     ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).wrap());
+}
+
+/// What scatters, in words.
+fn name(coordinate: Coordinate) -> &'static str {
+    use LayerNumber as N;
+    match coordinate {
+        Coordinate::Parameter(parameter) => tr(parameter.fact().title),
+        Coordinate::Dimension(dimension) => tr(dimension.fact().title),
+        // Starts do not scatter.
+        Coordinate::Start(_) => "",
+        Coordinate::Layer(number) => match number {
+            N::Width => tr("Width"),
+            N::SubstrateThickness => tr("Thickness of the substrate"),
+            N::SubstrateModulus => tr("Modulus of the substrate"),
+            N::SubstrateDensity => tr("Density of the substrate"),
+            N::CeramicThickness => tr("Thickness of a ceramic plate"),
+            N::CeramicModulus => tr("Modulus of the ceramic"),
+            N::CeramicDensity => tr("Density of the ceramic"),
+            N::D31 => tr("Constant d31 of the ceramic"),
+            N::Permittivity => tr("Permittivity of the ceramic"),
+            N::EpoxyThickness => tr("Thickness of the epoxy"),
+            N::EpoxyModulus => tr("Modulus of the epoxy"),
+            N::EpoxyDensity => tr("Density of the epoxy"),
+        },
+    }
 }
