@@ -149,6 +149,9 @@ fn decades(low: f64, high: f64, wanted: f64, fine: bool) -> Vec<Tick> {
     marks
 }
 
+/// Part of a spacing ahead, as a factor between values, at which the next line stands at least.
+const NEAREST: f64 = 0.75;
+
 /// Lines at round values of an axis that shows about a decade or less.
 fn within_decades(low: f64, high: f64, wanted: f64) -> Vec<Tick> {
     let mut marks: Vec<Tick> = Vec::new();
@@ -156,8 +159,11 @@ fn within_decades(low: f64, high: f64, wanted: f64) -> Vec<Tick> {
     let (end, mut guard) = (from_log(high), 0);
     while value <= end && guard < 200 {
         // Aim one spacing ahead and take the next round number there.
-        let step = round_step(value * (10_f64.powf(wanted) - 1.0));
+        let ahead = value * 10_f64.powf(wanted);
+        let step = round_step(ahead - value);
         let next = (value / step).floor() * step + step;
+        // One that is much nearer would have its label overprint.
+        let next = if next < NEAREST * ahead && !marks.is_empty() { next + step } else { next };
         marks.push(Tick { at: to_log(next), step: wanted.max(MINOR) });
         value = next;
         guard += 1;
@@ -214,6 +220,8 @@ mod tests {
         assert!(fine.len() >= 3 && fine.iter().all(|text| text.starts_with("0.0")), "{fine:?}");
         let hertz = labels(&axis, 0.0, 2.1, 300.0, 54.0);
         assert_eq!(hertz, ["2", "5", "10", "20", "50", "100"]);
+        let level = labels(&Axis::new("", "a").logarithmic(), -2.83, -0.67, 470.0, 56.0);
+        assert_eq!(level, ["0.002", "0.004", "0.01", "0.02", "0.04", "0.1"]);
     }
 
     #[test]
