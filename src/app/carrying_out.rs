@@ -54,7 +54,7 @@ impl App {
                 }
             }
             Command::RecordNoise => {
-                if let Some(text) = bench::recorded::noise(&self.view) {
+                if let Some(text) = bench::shaking::noise_as_recorded(&self.view) {
                     self.bench.vibration.open("noise.csv", text.into_bytes());
                 }
             }

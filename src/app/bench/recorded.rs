@@ -1,9 +1,7 @@
 //! A recording that shakes the base: what was brought, by what a link knows it, and what was done to it.
 
-use super::shaking;
-use crate::app::view::View;
 use crate::app::view::shake::Recording;
-use crate::model::base_motion::{self, Shared, Signal};
+use crate::model::base_motion::{self, Shared};
 use crate::model::{ModelError, STANDARD_GRAVITY};
 
 /// An accelerometer's record of the base.
@@ -75,23 +73,18 @@ impl Recorded {
     }
 }
 
-/// The noise in view as the text of a file, such as an accelerometer's software writes; none where there is no such noise.
-pub(in crate::app) fn noise(view: &View) -> Option<String> {
-    let signal: Signal = shaking::noise(view, view.design.shake.level).signal(0).ok()?;
-    let time: Vec<f64> = (0..signal.samples().len()).map(|i| i as f64 * signal.interval()).collect();
-    Some(Recorded::text(&time, signal.samples()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::app::bench::measured::Measured;
+    use crate::app::bench::shaking::noise_as_recorded;
+    use crate::app::view::View;
     use crate::questions::design::measured::Kind;
 
     #[test]
     fn a_recording_is_read_named_by_its_numbers_and_limited() {
         let mut vibration = Measured::of(Kind::Acceleration);
-        let text = noise(&View::default()).expect("a noise");
+        let text = noise_as_recorded(&View::default()).expect("a noise");
         vibration.open("noise.csv", text.clone().into_bytes());
         while vibration.work() {}
         assert_eq!(vibration.error, None);

@@ -87,7 +87,7 @@ pub(in crate::app) fn live(view: &View, bench: &Bench) -> Option<BaseMotion> {
 }
 
 /// The noise in view, at a level (g).
-pub(in crate::app) fn noise(view: &View, rms: f64) -> Noise {
+fn noise(view: &View, rms: f64) -> Noise {
     let (from, to) = band(view);
     Noise {
         from: Some(from),
@@ -97,6 +97,13 @@ pub(in crate::app) fn noise(view: &View, rms: f64) -> Noise {
         duration: duration(view),
         seed: view.design.shake.seed as u64,
     }
+}
+
+/// The noise in view as the text of a file, such as an accelerometer's software writes; none where there is no such noise.
+pub(in crate::app) fn noise_as_recorded(view: &View) -> Option<String> {
+    let signal = noise(view, view.design.shake.level).signal(0).ok()?;
+    let time: Vec<f64> = (0..signal.samples().len()).map(|i| i as f64 * signal.interval()).collect();
+    Some(Recorded::text(&time, signal.samples()))
 }
 
 /// The chirp in view, at a level (g).
