@@ -168,6 +168,7 @@ impl App {
     fn load_figure(&mut self, number: u8) {
         self.view.figure = number;
         let Some(figure) = figures::figure(number) else { return };
+        self.view.design.shake.everywhere = false;
         if let Some(scenario) = figure.scenario() {
             self.view.map = figure.resonance().map_or(self.view.map, MapWindow::about);
             self.show(scenario);

@@ -148,6 +148,8 @@ pub fn view_of(fragment: &str, present: &View) -> View {
     let (mut view, _) = link::read(fragment, present);
     if !fragment.contains("design.") {
         view.design = present.design.clone();
+        // A step is about what it says, which is the sine.
+        view.design.shake.everywhere = false;
     }
     View { lesson: present.lesson, step: present.step, ..view }
 }
@@ -178,8 +180,10 @@ mod tests {
     fn steps_set_the_page_and_are_undone() {
         let mut app = app(None);
         app.view.design.mode = 3;
+        app.view.design.shake.everywhere = true;
         let before = app.view.clone();
         act(&mut app, Action::Begin(tongue()));
+        assert_eq!(app.view.shaken(), None);
         assert_eq!((app.view.lesson, app.view.step), (Some(tongue()), 1));
         assert_eq!((app.view.scenario.parameters.beta, app.view.design.mode), (5e-4, 3));
         act(&mut app, Action::GoTo(2));

@@ -154,6 +154,11 @@ pub struct Answer {
 }
 
 impl Step {
+    /// Whether it asks for another tab.
+    pub fn asks_for_a_tab(&self) -> bool {
+        self.goal.iter().flat_map(|goal| &goal.conditions).any(|condition| condition.at == "/view/tab")
+    }
+
     fn read(part: &Part<'_>) -> Read<Self> {
         part.knows(&["text", "view", "goal", "question", "claims"])?;
         // What is there must be right; what is not there need not be.

@@ -4,6 +4,8 @@ use egui::{Popup, Ui};
 
 use super::{Context, share, shortcuts};
 use crate::app::command::{Command, Commands};
+use crate::app::lessons::course;
+use crate::app::lessons::data::Step;
 use crate::app::panels::computing;
 use crate::app::session::Status;
 use crate::app::text::{self, Language, tr};
@@ -39,8 +41,8 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
                     status(context, ui, if width < PHONE { sign } else { badge });
                 });
             });
-            // The steps of a lesson bring their tabs along, and the plot needs the room.
-            if context.view.lesson.is_none() {
+            // Most steps of lessons bring their tabs along, and the plot needs the room.
+            if course::step(context.view).is_none_or(Step::asks_for_a_tab) {
                 egui::ScrollArea::horizontal()
                     .scroll_bar_visibility(SCROLL_BAR)
                     .show(ui, |ui| choose_tab(context, ui));

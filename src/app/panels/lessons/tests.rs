@@ -89,3 +89,13 @@ fn who_has_done_the_last_step_is_offered_the_next_lesson() {
         }
     }
 }
+
+#[test]
+fn on_a_phone_a_step_has_the_tabs_when_it_asks_for_one() {
+    for (step, asks) in [(1, false), (2, false), (3, true), (4, true)] {
+        let mut desk = desk(360.0, 760.0, &format!(r#""lesson":"tour","step":{step}"#));
+        desk.rest(3);
+        let live = |node: &Node| node.role == Role::Tab && node.label == "Live";
+        assert_eq!(desk.harness.nodes.iter().any(live), asks, "step {step}");
+    }
+}
