@@ -301,10 +301,14 @@ impl App {
             }
             None => self.view.tab == Tab::Live,
         };
+        let mut goes_on = in_sight;
         if in_sight {
-            self.live.shake(bench::shaking::live(&self.view, &self.bench), &self.view.scenario);
+            let motion = bench::shaking::live(&self.view, &self.bench);
+            // Without its recording nothing shakes the base.
+            goes_on = motion.is_some() || self.view.shaken().is_none();
+            self.live.shake(motion, &self.view.scenario);
         }
-        if self.live.frame(context.input(|input| input.time), &self.view, in_sight) {
+        if self.live.frame(context.input(|input| input.time), &self.view, goes_on) {
             context.request_repaint();
         }
         self.errands.extend(self.live.chunk().map(Errand::Sound));

@@ -17,7 +17,7 @@ use crate::questions::design::record::{Clock, Level, sorted};
 use crate::questions::design::thin::{Thinner, extent};
 use crate::questions::fit::Fit;
 use crate::scenario::{Forgotten, Scenario};
-use crate::sentence::Say;
+use crate::sentence::{Say, said};
 
 /// Time that a frame may spend on reading, and rows between looks at the clock.
 const BUDGET_MS: f64 = 6.0;
@@ -118,6 +118,11 @@ impl Measured {
             Err(error) => self.error = Some(format!("{name}: {}", say(&error))),
             Ok(layout) => {
                 let (reading, ask) = begin(&layout, self.wanted);
+                if self.wanted == Kind::Acceleration && reading.domain == Domain::Frequency {
+                    let why = say(&said("its first column is a frequency, and a recording needs times", &[]));
+                    self.error = Some(format!("{name}: {why}"));
+                    return;
+                }
                 self.before = self.file.take().filter(|file| file.measures.is_some()).or(self.before.take());
                 self.file = Some(File {
                     name: name.to_owned(),

@@ -110,6 +110,9 @@ mod tests {
         assert!((other.acceleration[5] - 5.0 / STANDARD_GRAVITY).abs() < 1e-15);
         assert!(other.is_limited(10.0) && !other.is_limited(60.0));
         assert_eq!(other.motion(true, 60.0).highest, None);
+        vibration.open("sweep.csv", b"f [Hz],a [g]\n1,0\n2,1\n3,0\n4,1\n5,0\n6,1\n".to_vec());
+        assert!(vibration.error.as_ref().is_some_and(|error| error.contains("needs times")));
+        assert_eq!(recorded(&vibration).recording, other.recording);
         // Times that go back cannot shake anything: that is said, and the columns stay to be chosen anew.
         vibration.open("back.csv", b"t [s],a [g]\n0,1\n1,2\n2,1\n1,3\n4,1\n5,2\n6,3\n7,1\n".to_vec());
         while vibration.work() {}
