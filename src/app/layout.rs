@@ -128,6 +128,23 @@ mod tests {
     use crate::app::widgets::harness::Node;
 
     #[test]
+    fn with_one_column_no_plot_is_there_twice() {
+        for width in [360.0, 720.0] {
+            for tab in ["explore", "live", "stability", "sweep", "design", "paper"] {
+                let mut desk =
+                    Desk::new(width, 4000.0, &format!(r#"{{"scenario":{{"t_end":100}},"tab":"{tab}"}}"#));
+                desk.work(5);
+                let labels = desk.harness.nodes.iter().map(|node| &node.label);
+                let mut exports: Vec<_> = labels.filter(|label| label.starts_with("Export: ")).collect();
+                let all = exports.len();
+                exports.sort();
+                exports.dedup();
+                assert!(all > 0 && exports.len() == all, "{width}, {tab}: {exports:?}");
+            }
+        }
+    }
+
+    #[test]
     fn a_tab_that_is_opened_begins_at_its_top() {
         for (width, height) in [(1100.0, 600.0), (360.0, 900.0)] {
             let mut desk = Desk::new(width, height, r#"{"scenario":{"t_end":100},"tab":"stability"}"#);

@@ -161,7 +161,14 @@ fn limited(interval: f64, samples: Vec<f64>, highest: f64) -> (f64, Vec<f64>) {
         sinc * (0.42 + 0.5 * part.cos() + 0.08 * (2.0 * part).cos())
     };
     let weights: Vec<f64> = (0..=reach).map(weight).collect();
+    let whole = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
     let at = |place: usize| {
+        if place >= reach && place + reach <= last {
+            let sides = samples[place - reach..place].iter().rev().zip(&samples[place + 1..]);
+            let pairs = weights[1..].iter().zip(sides);
+            let sum = weights[0] * samples[place] + pairs.map(|(w, (a, b))| w * (a + b)).sum::<f64>();
+            return sum / whole;
+        }
         let near = place.saturating_sub(reach)..=(place + reach).min(last);
         // Over the sum of the weights, so that a constant stays one up to the ends.
         let (sum, all) = near.fold((0.0, 0.0), |(sum, all), i| {

@@ -23,7 +23,9 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     ui.add_space(GAP);
     let (panels, width) = (list::at(Place::of(context.view)), ui.available_width());
     let alone = plots::alone(context, &panels).is_some();
-    let Some((first, others)) = panels.split_first().filter(|_| !alone && width >= TWO_COLUMNS) else {
+    // Where one of them stays on top there are none below.
+    let beside = !alone && width >= TWO_COLUMNS && context.on_top.is_none();
+    let Some((first, others)) = panels.split_first().filter(|_| beside) else {
         return plots::cards(context, ui);
     };
     let height = ui.available_height() - GAP;
