@@ -299,6 +299,18 @@ fn under_noise_it_is_the_run_of_the_integrator_and_goes_on_through_changes() {
     while whole.read(now.time, 1000, &mut expected) == Ok(Reach::Later) {}
     let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9 * (1.0 + b.abs()));
     assert!(near(state, &expected) && now.turns > 10.0 && expected[4].abs() > 0.0, "{state:?} {expected:?}");
+    // A motion that begins anew at a sample is the whole one: a kick of nothing changes nothing.
+    let mut run =
+        LiveRun::begin(system.clone(), Drive::Signal(shaking.signal.clone(), 0), vec![0.0; 5], 0.0, 0.0)
+            .expect("from rest");
+    for turns in [3.217, 7.9, now.turns] {
+        while run.go_to(turns) == Ok(Reach::Later) {}
+        run.kick(0.0).expect("a motion");
+    }
+    let mut again = [0.0; 5];
+    let mut whole = Ongoing::under(system, (shaking.signal.clone(), 0), &[0.0; 5]).expect("from rest");
+    while whole.read(run.time(), 1000, &mut again) == Ok(Reach::Later) {}
+    assert!(run.time() >= now.time && near(run.state(), &again), "{:?} {again:?}", run.state());
     // A softer noise goes on where the other was, up to a sample.
     let (_, before) = live.shaken().expect("shaken");
     view.design.shake.level *= 0.5;
