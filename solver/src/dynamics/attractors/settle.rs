@@ -24,7 +24,7 @@ use super::rotation::{Rotation, disagreement, rotation, weighted_average};
 use super::signature::Signature;
 use super::strobe::Strobe;
 use super::tangent::Tangents;
-use super::zero_one::zero_one;
+use super::zero_one::{exceeds, zero_one};
 use crate::dynamics::integration::{Collocation, IntegrationError, Measures, Outcome, Settings};
 use crate::dynamics::orbits::newton::Convergence;
 use crate::dynamics::orbits::period_map::MOST_PERIODS;
@@ -543,7 +543,7 @@ impl Run<'_> {
         let recent = &self.tips[start..];
         let disagreement = disagreement(recent);
         disagreement <= self.effort.agreement
-            || disagreement > LARGE && zero_one(recent) > DIFFUSING
+            || disagreement > LARGE && exceeds(recent, DIFFUSING)
             || self.instants > LONGEST_PREVIEW
     }
 

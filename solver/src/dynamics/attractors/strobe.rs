@@ -101,17 +101,27 @@ impl Strobe {
     /// closer, or have arrived.
     pub(super) fn closest_return(&self) -> Option<usize> {
         let compared = self.len().checked_sub(LONGEST_RETURN)?.min(LONGEST_RETURN);
-        let defect = |period: usize, back: usize| {
-            let pairs = (back..back + compared)
-                .map(|j| self.distance(self.before_last(j), self.before_last(j + period)));
-            pairs.fold(0.0, f64::max)
+        let distances = |period: usize, back: usize| {
+            (back..back + compared)
+                .map(move |j| self.distance(self.before_last(j), self.before_last(j + period)))
         };
-        let all = (1..=LONGEST_RETURN).map(|period| (period, defect(period, 0)));
-        let (period, now) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
         let amplitude = self.amplitude(RECENT);
+        // Most periods are ruled out by their first few pairs.
+        let mut closest = None;
+        for period in 1..=LONGEST_RETURN {
+            let limit = closest.map_or((RETURNED * amplitude).next_up(), |(_, defect)| defect);
+            let mut defect: f64 = 0.0;
+            if distances(period, 0).all(|distance| {
+                defect = defect.max(distance);
+                defect < limit
+            }) {
+                closest = Some((period, defect));
+            }
+        }
+        let (period, now) = closest?;
         let back = (self.len() - compared - period).min(EARLIER);
-        let nearer = || now < NEARER * defect(period, back);
-        (now <= ARRIVED * amplitude || now <= RETURNED * amplitude && nearer()).then_some(period)
+        let nearer = || now < NEARER * distances(period, back).fold(0.0, f64::max);
+        (now <= ARRIVED * amplitude || nearer()).then_some(period)
     }
 
     /// Dimension of the set that the last states fill, by the median distances of their 4th and 16th neighbours: 1 on

@@ -8,6 +8,7 @@
 //! doubles the steps.
 
 use std::f64::consts::TAU;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 
@@ -48,20 +49,42 @@ impl StepDerivative<'_> {
     }
 }
 
+/// A period divided into equal steps. Maps cloned from one another share it, and what one of them refines.
+#[derive(Debug)]
+struct Division {
+    steps: usize,
+    propagator: Propagator,
+    tables: StepTables,
+    /// Sine and cosine of the excitation's phase at the start of each step.
+    phases: Vec<(f64, f64)>,
+    /// Into twice as many, once somebody has needed it.
+    finer: OnceLock<Arc<Self>>,
+}
+
+impl Division {
+    fn new(part: &LinearPart, period: f64, steps: usize) -> Self {
+        let propagator = Propagator::new(part, period / steps as f64);
+        let tables = StepTables::of(&propagator);
+        let phases = (0..steps).map(|i| (TAU * i as f64 / steps as f64).sin_cos()).collect();
+        Self { steps, propagator, tables, phases, finer: OnceLock::new() }
+    }
+
+    fn finer(&self, period: f64) -> Arc<Self> {
+        let halved = || Arc::new(Self::new(self.propagator.part(), period, 2 * self.steps));
+        Arc::clone(self.finer.get_or_init(halved))
+    }
+}
+
 /// The map of one structure at one excitation frequency.
 #[derive(Debug, Clone)]
 pub struct PeriodMap {
-    propagator: Propagator,
+    division: Arc<Division>,
     force: RestForce,
     period: f64,
     gap: f64,
     level: u32,
     /// How often the coarsest grid may be halved.
     deepest: u32,
-    steps: usize,
-    tables: StepTables,
-    /// Sine and cosine of the excitation's phase at the start of each step.
-    phases: Vec<(f64, f64)>,
     scales: Vec<f64>,
     extended: Vec<f64>,
     end: Vec<f64>,
@@ -82,25 +105,21 @@ impl PeriodMap {
     pub(in crate::dynamics) fn with_level(system: &ReducedSystem, level: u32) -> Self {
         let period = system.parameters.period();
         let steps = coarsest_steps(system) << level;
-        let propagator = Propagator::new(&LinearPart::new(system), period / steps as f64);
-        let tables = StepTables::of(&propagator);
-        let size = tables.stride() * (tables.dimension() + 1);
+        let division = Division::new(&LinearPart::new(system), period, steps);
+        let size = division.tables.stride() * (division.tables.dimension() + 1);
         Self {
-            extended: vec![0.0; propagator.part().extended_dimension()],
-            end: vec![0.0; tables.stride()],
+            extended: vec![0.0; division.propagator.part().extended_dimension()],
+            end: vec![0.0; division.tables.stride()],
             step: vec![0.0; size],
             product: vec![0.0; size],
             next: vec![0.0; size],
-            phases: phases(steps),
             scales: scales(system),
             gap: system.equilibrium.gap,
             level,
             deepest: DEEPEST_LEVEL,
-            propagator,
+            division: Arc::new(division),
             force: system.rest_force(),
             period,
-            steps,
-            tables,
         }
     }
 
@@ -111,12 +130,12 @@ impl PeriodMap {
 
     /// Flow and tables of a step.
     pub(in crate::dynamics) fn tables(&self) -> (&Propagator, &StepTables) {
-        (&self.propagator, &self.tables)
+        (&self.division.propagator, &self.division.tables)
     }
 
     /// Length 2N + 1 of the state.
     pub fn dimension(&self) -> usize {
-        self.tables.dimension()
+        self.division.tables.dimension()
     }
 
     /// Excitation period 2 pi / omega (dimensionless).
@@ -136,7 +155,7 @@ impl PeriodMap {
 
     /// Steps of one excitation period.
     pub fn steps_per_period(&self) -> usize {
-        self.steps
+        self.division.steps
     }
 
     /// What each component of the state is when its energy is that of a unit displacement of its mode (1, omega_k,
@@ -151,18 +170,11 @@ impl PeriodMap {
     /// [`OrbitError::Unresolved`] when the grid is as fine as it may become.
     pub fn refine(&mut self) -> Result<(), OrbitError> {
         if self.level >= self.deepest {
-            return Err(OrbitError::Unresolved { steps: self.steps });
+            return Err(OrbitError::Unresolved { steps: self.steps_per_period() });
         }
         self.level += 1;
-        self.set_steps(&self.propagator.part().clone(), 2 * self.steps);
+        self.division = self.division.finer(self.period);
         Ok(())
-    }
-
-    fn set_steps(&mut self, part: &LinearPart, steps: usize) {
-        self.steps = steps;
-        self.propagator = Propagator::new(part, self.period / steps as f64);
-        self.tables = StepTables::of(&self.propagator);
-        self.phases = phases(steps);
     }
 
     /// Carries `state` (length 2N + 1, at t = 0) over `periods` excitation periods at amplitude `beta`, and its
@@ -203,7 +215,9 @@ impl PeriodMap {
         periods: usize,
         mut observer: impl FnMut(&Step<'_>, &StepDerivative<'_>),
     ) -> Result<f64, OrbitError> {
-        let (dimension, stride) = (self.dimension(), self.tables.stride());
+        let division = Arc::clone(&self.division);
+        let Division { steps, propagator, tables, phases, .. } = &*division;
+        let (dimension, stride) = (tables.dimension(), tables.stride());
         check_state(state, dimension)?;
         if !(1..=MOST_PERIODS).contains(&periods) {
             return Err(OrbitError::Periods { periods, most: MOST_PERIODS });
@@ -216,10 +230,10 @@ impl PeriodMap {
             }
         }
         let mut worst: f64 = 0.0;
-        for number in 0..periods * self.steps {
-            let index = number % self.steps;
-            let time = self.period * (number as f64 / self.steps as f64);
-            let (sine, cosine) = self.phases[index];
+        for number in 0..periods * steps {
+            let index = number % steps;
+            let time = self.period * (number as f64 / *steps as f64);
+            let (sine, cosine) = phases[index];
             self.extended[dimension] = beta * sine;
             self.extended[dimension + 1] = beta * cosine;
             // Compiled twice, once for the paper's law alone, which then stays in registers.
@@ -227,19 +241,18 @@ impl PeriodMap {
                 RestForce::Quadratic { c2 } => self.solve(&RestForce::Quadratic { c2 }, time),
                 _ => self.solve(&self.force, time),
             }?;
-            let tables = &self.tables;
             let mut variation = 0.0;
             if DERIVED {
                 let slopes = self.force.slope_at(&tip);
                 variation = differentiate(tables, &slopes, (sine, cosine), &self.scales, &mut self.step)
-                    .ok_or(OrbitError::Unresolved { steps: self.steps })?;
+                    .ok_or(OrbitError::Unresolved { steps: *steps })?;
             }
             let gap = tip.iter().fold(self.gap, |most, s| most.max(s.abs()));
             let end = tables.end_gain / TOLERANCE;
             let motion = high_degrees(&rest) / gap * end.max(tables.gain / TOLERANCE_WITHIN);
             worst = worst.max(motion).max(variation * end);
             if DERIVED {
-                let (start, propagator) = (&self.extended, &self.propagator);
+                let start = &self.extended;
                 let step = Step { time, start, rest: &rest, tip: &tip, tables, propagator, index };
                 observer(&step, &StepDerivative { columns: &self.step, stride, dimension });
             }
@@ -260,7 +273,7 @@ impl PeriodMap {
     /// Entry (`row`, `column`) of the derivative of the last [`Self::apply`] with respect to the state; column
     /// 2N + 1 is the derivative with respect to beta.
     pub fn derivative(&self, row: usize, column: usize) -> f64 {
-        self.product[column * self.tables.stride() + row]
+        self.product[column * self.division.tables.stride() + row]
     }
 
     /// The derivative of the last [`Self::apply`] in the components that [`Self::scales`] makes comparable,
@@ -273,8 +286,8 @@ impl PeriodMap {
     /// Solves a step from the present extended state under the map's own `force`: s and R at the nodes.
     #[inline(always)]
     fn solve(&self, force: &RestForce, time: f64) -> Result<(NodeValues, NodeValues), OrbitError> {
-        let tables = &self.tables;
-        let n = self.propagator.part().modes;
+        let Division { tables, propagator, .. } = &*self.division;
+        let n = propagator.part().modes;
         let free = tables.tip.free(&self.extended);
         let s: f64 = self.extended[..n].iter().sum();
         let w: f64 = self.extended[n..2 * n].iter().sum();
@@ -306,14 +319,14 @@ impl PeriodMap {
             }
             last = change <= settled;
         }
-        Err(OrbitError::Unresolved { steps: self.steps })
+        Err(OrbitError::Unresolved { steps: self.steps_per_period() })
     }
 
     /// Multiplies the step's derivative onto that of the map so far.
     #[inline]
     fn accumulate(&mut self) {
-        let stride = self.tables.stride();
-        let dimension = self.tables.dimension();
+        let stride = self.division.tables.stride();
+        let dimension = self.division.tables.dimension();
         let columns = self.next.chunks_exact_mut(stride).zip(self.product.chunks_exact(stride));
         for (j, (next, old)) in columns.enumerate() {
             if j < dimension {
@@ -325,11 +338,6 @@ impl PeriodMap {
         }
         std::mem::swap(&mut self.next, &mut self.product);
     }
-}
-
-/// Sine and cosine of the phase at the start of each of `steps` steps.
-fn phases(steps: usize) -> Vec<(f64, f64)> {
-    (0..steps).map(|i| (TAU * i as f64 / steps as f64).sin_cos()).collect()
 }
 
 /// What each component of a state is when its energy is that of a unit displacement of its mode, length 2N + 1: see
