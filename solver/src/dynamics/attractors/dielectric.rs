@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
+use super::effort::Effort;
 use super::motion::{Motion, Reached};
-use super::settle::{Effort, reach};
+use super::settle::reach;
 use crate::dynamics::integration::{IntegrationError, RunError, Settings, Trajectory};
 use crate::dynamics::orbits::{Orbit, OrbitError};
 use crate::model::{Along, ModelError, ReducedSystem};

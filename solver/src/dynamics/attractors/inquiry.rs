@@ -4,11 +4,12 @@
 //! On a periodic motion, exponent and spectrum are those of the motion itself, started on it, so that nothing of the
 //! transient is in them; were it unstable after all, it would be left.
 
+use super::effort::Effort;
 use super::evidence::{Evidence, EvidenceSource, Observation};
 use super::lyapunov::{Exponent, Record, Sign, exponents};
 use super::motion::{Cell, Motion, Reached, Undecided};
 use super::rotation::{Rotation, rotation};
-use super::settle::{Effort, Settler};
+use super::settle::Settler;
 use super::signature::{Recogniser, Signature};
 use super::strobe::{GEOMETRY, Strobe};
 use super::verdict::{

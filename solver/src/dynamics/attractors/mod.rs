@@ -3,6 +3,8 @@
 //! Read in this order:
 //!
 //! * [`motion`] has the classes, [`settle`] the one answer to that question: every task and every tab asks it.
+//!   `pursuit` follows one start from look to look, `repertoire` keeps the periodic motions found, [`effort`]
+//!   says how much work a start is worth.
 //! * What it decides by: `strobe` keeps the stroboscopic states of a run, whose recurrence is that of [`poincare`];
 //!   `neighbourhood` tells whether they lie in the linear neighbourhood of a periodic motion, and what they do there;
 //!   [`rotation`] has means and frequencies by weighted Birkhoff averages, `zero_one` the 0-1 test for chaos, [`lyapunov`]
@@ -17,6 +19,7 @@
 //! The uppermost room: it may use all others, and none of them uses it.
 
 pub mod dielectric;
+pub mod effort;
 pub mod evidence;
 mod inquiry;
 pub mod lyapunov;
@@ -24,7 +27,9 @@ mod meter;
 pub mod motion;
 mod neighbourhood;
 pub mod poincare;
+mod pursuit;
 pub mod rectified;
+mod repertoire;
 pub mod rotation;
 pub mod settle;
 pub mod signature;
@@ -37,9 +42,10 @@ pub mod verdict;
 pub mod voltage_spectrum;
 mod zero_one;
 
+pub use effort::Effort;
 pub use inquiry::Inquiry;
 pub use lyapunov::Exponent;
 pub use motion::{Motion, Reached};
-pub use settle::{Effort, Settler, reach};
+pub use settle::{Settler, reach};
 pub use verdict::Verdict;
 pub use voltage_spectrum::VoltageSpectrum;

@@ -100,7 +100,8 @@ impl Recogniser {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::attractors::settle::{Effort, reach};
+    use crate::dynamics::attractors::effort::Effort;
+    use crate::dynamics::attractors::settle::reach;
     use crate::dynamics::integration::Measures;
     use crate::model::{ModelChoice, ParameterSet};
 

@@ -100,7 +100,7 @@ impl Strobe {
     /// The number of periods, up to 64, after which the last states come closest to themselves, if they come close and ever
     /// closer, or have arrived.
     pub(super) fn closest_return(&self) -> Option<usize> {
-        let compared = self.len().checked_sub(LONGEST_RETURN)?.min(LONGEST_RETURN);
+        let compared = self.len().checked_sub(LONGEST_RETURN).filter(|count| *count > 0)?.min(LONGEST_RETURN);
         let distances = |period: usize, back: usize| {
             (back..back + compared)
                 .map(move |j| self.distance(self.before_last(j), self.before_last(j + period)))
@@ -149,5 +149,35 @@ impl Strobe {
         let ratio = median(&mut farther) / median(&mut nearer);
         let dimension = (far as f64 / near as f64).ln() / ratio.ln();
         dimension.is_finite().then_some(dimension)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{ParameterSet, Parameters};
+
+    /// States whose displacement is `value` of their number.
+    fn strobe(count: usize, value: impl Fn(usize) -> f64) -> Strobe {
+        let parameters = Parameters::new(ParameterSet::default()).expect("the paper's");
+        let system = ReducedSystem::new(parameters, 1, Default::default()).expect("a device");
+        let mut strobe = Strobe::new(&system);
+        (0..count).for_each(|k| strobe.push(&[value(k), 0.0, 0.0]));
+        strobe
+    }
+
+    #[test]
+    fn the_closest_return_is_the_shortest_of_the_closest() {
+        assert_eq!(strobe(200, |_| 0.7).closest_return(), Some(1));
+        assert_eq!(strobe(200, |k| (k % 3) as f64).closest_return(), Some(3));
+        assert_eq!(strobe(200, |k| (k % 37) as f64).closest_return(), Some(37));
+        // Nearly repeating is enough only where states come closer.
+        let turning = |k: usize, period: f64| (std::f64::consts::TAU * k as f64 / period).sin();
+        let settling = |k: usize| 1.0 + (-0.02 * k as f64).exp() * turning(k, 5.05);
+        assert_eq!(strobe(200, settling).closest_return(), Some(5));
+        assert_eq!(strobe(200, |k| turning(k, 5.05)).closest_return(), None);
+        // Too few to be compared.
+        assert_eq!(strobe(LONGEST_RETURN, |_| 0.7).closest_return(), None);
+        assert_eq!(strobe(LONGEST_RETURN + 1, |_| 0.7).closest_return(), Some(1));
     }
 }

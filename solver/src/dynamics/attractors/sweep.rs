@@ -9,8 +9,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::dielectric::{WithLoss, reach_with_loss};
+use super::effort::Effort;
 use super::motion::{Cell, Motion};
-use super::settle::Effort;
 use crate::dynamics::integration::{Collocation, Measures, RunError, Settings};
 use crate::model::{Along, ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem};
 

@@ -36,6 +36,7 @@ use super::linear::LinearPart;
 use super::outcome::{ESCAPE_DISPLACEMENT, IntegrationError, Outcome};
 use super::propagator::{BLOCK, Propagator, StepRest, Workspace};
 use super::rule::{NODES, NodeValues, RULE, add_scaled};
+use super::rung::Rung;
 use super::step::Step;
 use super::tables::StepTables;
 use crate::model::base_motion::Signal;
@@ -73,15 +74,15 @@ impl Default for Settings {
 #[derive(Debug, Clone)]
 pub struct Collocation {
     part: LinearPart,
-    /// Over the longest step, for its tables and for dense output.
-    propagator: Propagator,
+    /// Of the longest step, whose flow is for dense output, too.
+    longest: Arc<Rung>,
     force: RestForce,
     settings: Settings,
     grid: Grid,
     excitation: Excitation,
     gap: f64,
-    /// Tables of each level used so far, boxed because a step takes them out and puts them back.
-    tables: Vec<Option<Box<StepTables>>>,
+    /// Those of each level used so far; a step takes its own out and puts it back.
+    rungs: Vec<Option<Arc<Rung>>>,
     extended: Vec<f64>,
     end: Vec<f64>,
     rest: NodeValues,
@@ -135,8 +136,8 @@ impl Collocation {
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
         let grid = Grid::new(system, phase);
-        let propagator = Propagator::new(&LinearPart::new(system), grid.longest_step());
-        Self::prepared(system, Excitation::of(system), initial, (grid, propagator, None), settings)
+        let rung = Rung::new(&LinearPart::new(system), grid.longest_step());
+        Self::prepared(system, Excitation::of(system), initial, (grid, Arc::new(rung)), settings)
     }
 
     /// An integrator of `system` whose base has the acceleration `signal` (dimensionless: in beam lengths and the model's unit
@@ -152,8 +153,8 @@ impl Collocation {
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
         let grid = Grid::under(system, &signal);
-        let propagator = Propagator::new(&LinearPart::under(system, &signal), grid.longest_step());
-        Self::prepared(system, Excitation::Signal(signal, first), initial, (grid, propagator, None), settings)
+        let rung = Rung::new(&LinearPart::under(system, &signal), grid.longest_step());
+        Self::prepared(system, Excitation::Signal(signal, first), initial, (grid, Arc::new(rung)), settings)
     }
 
     /// As [`Self::from_phase`], with the voltage held at that of `initial`.
@@ -166,45 +167,43 @@ impl Collocation {
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
         let grid = Grid::new(system, 0.0);
-        let propagator = Propagator::new(&LinearPart::new(system).clamped(), grid.longest_step());
-        Self::prepared(system, Excitation::of(system), initial, (grid, propagator, None), settings)
+        let rung = Rung::new(&LinearPart::new(system).clamped(), grid.longest_step());
+        Self::prepared(system, Excitation::of(system), initial, (grid, Arc::new(rung)), settings)
     }
 
-    /// As [`Self::new`], where flow and tables of the longest step of `system` are there already.
+    /// As [`Self::new`], where what belongs to the longest step of `system` is there already.
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub(in crate::dynamics) fn with_tables(
+    pub(in crate::dynamics) fn with_rung(
         system: &ReducedSystem,
         initial: &[f64],
-        (propagator, tables): (&Propagator, &StepTables),
+        rung: &Arc<Rung>,
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
-        let tables = Some(Box::new(tables.clone()));
         let grid = Grid::new(system, 0.0);
-        Self::prepared(system, Excitation::of(system), initial, (grid, propagator.clone(), tables), settings)
+        Self::prepared(system, Excitation::of(system), initial, (grid, Arc::clone(rung)), settings)
     }
 
     fn prepared(
         system: &ReducedSystem,
         excitation: Excitation,
         initial: &[f64],
-        (grid, propagator, longest): (Grid, Propagator, Option<Box<StepTables>>),
+        (grid, longest): (Grid, Arc<Rung>),
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
         let dimension = system.dimension();
-        let mut tables = vec![None; DEEPEST_LEVEL + 1];
-        tables[0] = longest;
+        let part = longest.propagator.part().clone();
         let mut integrator = Self {
-            part: propagator.part().clone(),
-            extended: vec![0.0; propagator.part().extended_dimension()],
-            propagator,
+            extended: vec![0.0; part.extended_dimension()],
+            part,
+            longest,
             grid,
             force: system.rest_force(),
             settings,
             excitation,
             gap: system.equilibrium.gap,
-            tables,
+            rungs: vec![None; DEEPEST_LEVEL + 1],
             end: vec![0.0; dimension.next_multiple_of(BLOCK)],
             rest: [0.0; NODES],
             tip: [0.0; NODES],
@@ -242,11 +241,6 @@ impl Collocation {
         Ok(())
     }
 
-    /// Changes the excitation's amplitude, for the next run.
-    pub(in crate::dynamics) fn set_beta(&mut self, beta: f64) {
-        self.excitation = Excitation::Sine { beta };
-    }
-
     /// Present time (dimensionless).
     pub fn time(&self) -> f64 {
         self.grid.time()
@@ -269,7 +263,7 @@ impl Collocation {
 
     /// The linear part's flow over the longest step and its fractions, for dense output.
     pub fn propagator(&self) -> &Propagator {
-        &self.propagator
+        &self.longest.propagator
     }
 
     /// Goes on towards `t_end` for at most `most_steps` steps, each shown to `observer`, and returns the outcome
@@ -296,28 +290,21 @@ impl Collocation {
             let length = self.grid.step_length();
             let level = self.grid.level();
             let last = remaining < length * (1.0 - 1e-9);
-            let tables = match self.tables[level].take() {
-                Some(tables) if !last => tables,
-                kept => {
-                    let tables = if last || level > 0 {
-                        StepTables::new(&self.part, if last { remaining } else { length })
-                    } else {
-                        StepTables::of(&self.propagator)
-                    };
-                    let tables = Box::new(tables);
-                    self.tables[level] = kept;
-                    tables
-                }
+            let rung = if last {
+                Arc::new(Rung::new(&self.part, remaining))
+            } else {
+                self.rungs[level].take().unwrap_or_else(|| self.rung_of(level))
             };
-            let attempt = self.attempt(&tables);
+            let tables = &rung.tables;
+            let attempt = self.attempt(tables);
             if let Attempt::Accepted { .. } = attempt {
-                if let Some(outcome) = self.escape_within(&tables, observer) {
+                if let Some(outcome) = self.escape_within(tables, observer) {
                     return Ok(Some(outcome));
                 }
-                observer(&self.present(&tables));
+                observer(&self.present(tables));
             }
             if !last {
-                self.tables[level] = Some(tables);
+                self.rungs[level] = Some(rung);
             }
             match attempt {
                 Attempt::Accepted { .. } if last => {
@@ -341,6 +328,10 @@ impl Collocation {
             }
         }
         Ok(None)
+    }
+
+    fn rung_of(&self, level: usize) -> Arc<Rung> {
+        (0..level).fold(Arc::clone(&self.longest), |rung, _| rung.half())
     }
 
     /// Solves the step from the present state; leaves R and s at the nodes in `self`.
@@ -418,7 +409,7 @@ impl Collocation {
             rest: &self.rest,
             tip: &self.tip,
             tables,
-            propagator: &self.propagator,
+            propagator: &self.longest.propagator,
             index: self.grid.index(),
         }
     }
@@ -444,7 +435,7 @@ impl Collocation {
         for _ in 0..HALVINGS_TO_ESCAPE {
             let middle = 0.5 * (inside + outside);
             let mut there = state.clone();
-            self.propagator.carry(&mut there, inside, middle, &rest, &mut workspace);
+            self.longest.propagator.carry(&mut there, inside, middle, &rest, &mut workspace);
             if escaped(&there) {
                 outside = middle;
             } else {

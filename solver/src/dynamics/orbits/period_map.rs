@@ -8,7 +8,7 @@
 //! doubles the steps.
 
 use std::f64::consts::TAU;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
@@ -16,9 +16,8 @@ use super::orbit_error::OrbitError;
 use crate::dynamics::integration::collocation::{ROUNDING, check_state};
 use crate::dynamics::integration::grid::coarsest_steps;
 use crate::dynamics::integration::linear::LinearPart;
-use crate::dynamics::integration::propagator::Propagator;
 use crate::dynamics::integration::rule::{NodeValues, add_scaled};
-use crate::dynamics::integration::tables::StepTables;
+use crate::dynamics::integration::rung::Rung;
 use crate::dynamics::integration::variation::{add_combination, differentiate, high_degrees};
 use crate::dynamics::integration::{ESCAPE_DISPLACEMENT, Step};
 use crate::model::{ReducedSystem, RestForce};
@@ -49,36 +48,14 @@ impl StepDerivative<'_> {
     }
 }
 
-/// A period divided into equal steps. Maps cloned from one another share it, and what one of them refines.
-#[derive(Debug)]
-struct Division {
-    steps: usize,
-    propagator: Propagator,
-    tables: StepTables,
-    /// Sine and cosine of the excitation's phase at the start of each step.
-    phases: Vec<(f64, f64)>,
-    /// Into twice as many, once somebody has needed it.
-    finer: OnceLock<Arc<Self>>,
-}
-
-impl Division {
-    fn new(part: &LinearPart, period: f64, steps: usize) -> Self {
-        let propagator = Propagator::new(part, period / steps as f64);
-        let tables = StepTables::of(&propagator);
-        let phases = (0..steps).map(|i| (TAU * i as f64 / steps as f64).sin_cos()).collect();
-        Self { steps, propagator, tables, phases, finer: OnceLock::new() }
-    }
-
-    fn finer(&self, period: f64) -> Arc<Self> {
-        let halved = || Arc::new(Self::new(self.propagator.part(), period, 2 * self.steps));
-        Arc::clone(self.finer.get_or_init(halved))
-    }
-}
-
 /// The map of one structure at one excitation frequency.
 #[derive(Debug, Clone)]
 pub struct PeriodMap {
-    division: Arc<Division>,
+    /// Steps a period, and what belongs to one of their length.
+    steps: usize,
+    rung: Arc<Rung>,
+    /// Sine and cosine of the excitation's phase at the start of each step.
+    phases: Arc<[(f64, f64)]>,
     force: RestForce,
     period: f64,
     gap: f64,
@@ -105,11 +82,11 @@ impl PeriodMap {
     pub(in crate::dynamics) fn with_level(system: &ReducedSystem, level: u32) -> Self {
         let period = system.parameters.period();
         let steps = coarsest_steps(system) << level;
-        let division = Division::new(&LinearPart::new(system), period, steps);
-        let size = division.tables.stride() * (division.tables.dimension() + 1);
+        let rung = Rung::new(&LinearPart::new(system), period / steps as f64);
+        let size = rung.tables.stride() * (rung.tables.dimension() + 1);
         Self {
-            extended: vec![0.0; division.propagator.part().extended_dimension()],
-            end: vec![0.0; division.tables.stride()],
+            extended: vec![0.0; rung.propagator.part().extended_dimension()],
+            end: vec![0.0; rung.tables.stride()],
             step: vec![0.0; size],
             product: vec![0.0; size],
             next: vec![0.0; size],
@@ -117,7 +94,9 @@ impl PeriodMap {
             gap: system.equilibrium.gap,
             level,
             deepest: DEEPEST_LEVEL,
-            division: Arc::new(division),
+            steps,
+            phases: phases(steps),
+            rung: Arc::new(rung),
             force: system.rest_force(),
             period,
         }
@@ -128,14 +107,14 @@ impl PeriodMap {
         Self { deepest: deepest.min(DEEPEST_LEVEL), ..self }
     }
 
-    /// Flow and tables of a step.
-    pub(in crate::dynamics) fn tables(&self) -> (&Propagator, &StepTables) {
-        (&self.division.propagator, &self.division.tables)
+    /// What belongs to a step of the map's length.
+    pub(in crate::dynamics) fn rung(&self) -> &Arc<Rung> {
+        &self.rung
     }
 
     /// Length 2N + 1 of the state.
     pub fn dimension(&self) -> usize {
-        self.division.tables.dimension()
+        self.rung.tables.dimension()
     }
 
     /// Excitation period 2 pi / omega (dimensionless).
@@ -155,7 +134,7 @@ impl PeriodMap {
 
     /// Steps of one excitation period.
     pub fn steps_per_period(&self) -> usize {
-        self.division.steps
+        self.steps
     }
 
     /// What each component of the state is when its energy is that of a unit displacement of its mode (1, omega_k,
@@ -170,10 +149,12 @@ impl PeriodMap {
     /// [`OrbitError::Unresolved`] when the grid is as fine as it may become.
     pub fn refine(&mut self) -> Result<(), OrbitError> {
         if self.level >= self.deepest {
-            return Err(OrbitError::Unresolved { steps: self.steps_per_period() });
+            return Err(OrbitError::Unresolved { steps: self.steps });
         }
         self.level += 1;
-        self.division = self.division.finer(self.period);
+        self.steps *= 2;
+        self.rung = self.rung.half();
+        self.phases = phases(self.steps);
         Ok(())
     }
 
@@ -215,8 +196,8 @@ impl PeriodMap {
         periods: usize,
         mut observer: impl FnMut(&Step<'_>, &StepDerivative<'_>),
     ) -> Result<f64, OrbitError> {
-        let division = Arc::clone(&self.division);
-        let Division { steps, propagator, tables, phases, .. } = &*division;
+        let rung = Arc::clone(&self.rung);
+        let Rung { propagator, tables, .. } = &*rung;
         let (dimension, stride) = (tables.dimension(), tables.stride());
         check_state(state, dimension)?;
         if !(1..=MOST_PERIODS).contains(&periods) {
@@ -230,10 +211,10 @@ impl PeriodMap {
             }
         }
         let mut worst: f64 = 0.0;
-        for number in 0..periods * steps {
-            let index = number % steps;
-            let time = self.period * (number as f64 / *steps as f64);
-            let (sine, cosine) = phases[index];
+        for number in 0..periods * self.steps {
+            let index = number % self.steps;
+            let time = self.period * (number as f64 / self.steps as f64);
+            let (sine, cosine) = self.phases[index];
             self.extended[dimension] = beta * sine;
             self.extended[dimension + 1] = beta * cosine;
             // Compiled twice, once for the paper's law alone, which then stays in registers.
@@ -245,7 +226,7 @@ impl PeriodMap {
             if DERIVED {
                 let slopes = self.force.slope_at(&tip);
                 variation = differentiate(tables, &slopes, (sine, cosine), &self.scales, &mut self.step)
-                    .ok_or(OrbitError::Unresolved { steps: *steps })?;
+                    .ok_or(OrbitError::Unresolved { steps: self.steps })?;
             }
             let gap = tip.iter().fold(self.gap, |most, s| most.max(s.abs()));
             let end = tables.end_gain / TOLERANCE;
@@ -273,7 +254,7 @@ impl PeriodMap {
     /// Entry (`row`, `column`) of the derivative of the last [`Self::apply`] with respect to the state; column
     /// 2N + 1 is the derivative with respect to beta.
     pub fn derivative(&self, row: usize, column: usize) -> f64 {
-        self.product[column * self.division.tables.stride() + row]
+        self.product[column * self.rung.tables.stride() + row]
     }
 
     /// The derivative of the last [`Self::apply`] in the components that [`Self::scales`] makes comparable,
@@ -286,7 +267,7 @@ impl PeriodMap {
     /// Solves a step from the present extended state under the map's own `force`: s and R at the nodes.
     #[inline(always)]
     fn solve(&self, force: &RestForce, time: f64) -> Result<(NodeValues, NodeValues), OrbitError> {
-        let Division { tables, propagator, .. } = &*self.division;
+        let Rung { tables, propagator, .. } = &*self.rung;
         let n = propagator.part().modes;
         let free = tables.tip.free(&self.extended);
         let s: f64 = self.extended[..n].iter().sum();
@@ -319,14 +300,14 @@ impl PeriodMap {
             }
             last = change <= settled;
         }
-        Err(OrbitError::Unresolved { steps: self.steps_per_period() })
+        Err(OrbitError::Unresolved { steps: self.steps })
     }
 
     /// Multiplies the step's derivative onto that of the map so far.
     #[inline]
     fn accumulate(&mut self) {
-        let stride = self.division.tables.stride();
-        let dimension = self.division.tables.dimension();
+        let stride = self.rung.tables.stride();
+        let dimension = self.rung.tables.dimension();
         let columns = self.next.chunks_exact_mut(stride).zip(self.product.chunks_exact(stride));
         for (j, (next, old)) in columns.enumerate() {
             if j < dimension {
@@ -338,6 +319,11 @@ impl PeriodMap {
         }
         std::mem::swap(&mut self.next, &mut self.product);
     }
+}
+
+/// Sine and cosine of the phase at the start of each of `steps` steps.
+fn phases(steps: usize) -> Arc<[(f64, f64)]> {
+    (0..steps).map(|i| (TAU * i as f64 / steps as f64).sin_cos()).collect()
 }
 
 /// What each component of a state is when its energy is that of a unit displacement of its mode, length 2N + 1: see
