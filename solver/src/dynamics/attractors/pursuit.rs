@@ -4,7 +4,7 @@ use super::effort::Effort;
 use super::lyapunov::{self, Exponent, KNOWN, Sign};
 use super::meter::Meter;
 use super::motion::{Motion, Reached, Undecided};
-use super::neighbourhood::Relation;
+use super::neighbourhood::{Neighbourhood, Relation};
 use super::repertoire::Repertoire;
 use super::rotation::{Rotation, disagreement, rotation, weighted_average};
 use super::strobe::Strobe;
@@ -38,6 +38,8 @@ const REGULAR: f64 = 0.3;
 const DIFFUSING: f64 = 0.7;
 /// Largest difference of the rotation numbers of two halves (turns a period).
 const SAME_ROTATION: f64 = 1e-6;
+/// Distance from an orbit, relative to that at the last look, below which a run comes nearer to it.
+const NEARER: f64 = 0.9;
 /// Distance from a ratio of whole numbers below which a rotation is locked to it, and how many such are looked through.
 const LOCKED: f64 = 1e-7;
 const MOST_LOCKED: usize = 4;
@@ -72,6 +74,8 @@ pub(super) struct Pursuit {
     failed: Vec<(usize, usize)>,
     /// Periods of which a stable orbit was found that the run was not near: its index, and the distance from it then.
     far: Vec<(usize, usize, f64)>,
+    /// Distance from each known orbit when last looked at, infinite from unstable ones.
+    distances: Vec<f64>,
 }
 
 /// What is recorded of a motion that is near no periodic one.
@@ -134,6 +138,7 @@ impl Pursuit {
             tips: Vec::new(),
             failed: Vec::new(),
             far: Vec::new(),
+            distances: Vec::new(),
         }
     }
 
@@ -264,6 +269,17 @@ impl Look<'_> {
         near.iter().find(reached).or_else(|| near.first()).copied()
     }
 
+    /// Notes the distances from the known stable orbits and says whether one of them is smaller than when last looked at.
+    fn nears_a_stable_orbit(&mut self) -> bool {
+        let distance = |known: &Neighbourhood| {
+            if known.orbit.stable() { known.distance_lately(&self.run.strobe) } else { f64::INFINITY }
+        };
+        let now: Vec<f64> = self.repertoire.known.iter().map(distance).collect();
+        let nears = now.iter().zip(&self.run.distances).any(|(now, before)| *now < NEARER * before);
+        self.run.distances = now;
+        nears
+    }
+
     /// The same, of orbits newly looked for behind the last states.
     fn near_found(&mut self) -> Option<(usize, Relation)> {
         for found in self.repertoire.find_guessed() {
@@ -276,7 +292,10 @@ impl Look<'_> {
         let mut candidates = Vec::new();
         let recurring = self.run.strobe.recurrence(&self.repertoire.system).and_then(|found| found.period);
         candidates.extend(recurring);
-        candidates.extend(self.run.strobe.closest_return());
+        // A run that winds towards a known orbit returns close to itself after as many periods as a turn takes.
+        if !self.nears_a_stable_orbit() {
+            candidates.extend(self.run.strobe.closest_return());
+        }
         if self.run.looks.is_power_of_two() {
             candidates.push(1);
         }
