@@ -28,15 +28,16 @@ impl<P: Piece + Clone> Study for Table<P> {
         let (row, piece) = (self.handed, self.pieces.get(self.handed)?.clone());
         self.handed += 1;
         Some(Order::new(piece, move |table: &mut Self, found| {
-            if let Some(place) = table.found.get_mut(row) {
-                *place = Some(found);
-            }
+            table.found[row] = Some(found);
         }))
     }
 
     fn progress(&self) -> f64 {
-        let done = self.found.iter().flatten().count();
-        done as f64 / self.found.len().max(1) as f64
+        self.share() * self.found.iter().flatten().count() as f64
+    }
+
+    fn share(&self) -> f64 {
+        1.0 / self.found.len().max(1) as f64
     }
 
     fn finished(&self) -> bool {
@@ -49,5 +50,64 @@ impl<P: Piece + Clone + PartialEq> Asked for Table<P> {
 
     fn asked(&self) -> &Vec<P> {
         &self.pieces
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scheduler::Lane;
+    use crate::scheduler::foreman::Foreman;
+    use crate::scheduler::lane::Lanes;
+
+    /// A piece that finds its own number.
+    #[derive(Debug, Clone, PartialEq, nanoserde::SerBin, nanoserde::DeBin)]
+    struct Row(u32);
+
+    impl Piece for Row {
+        const NAME: &'static str = "row";
+        type Found = u32;
+
+        fn carry_out(&self) -> Result<u32, Failure> {
+            Ok(self.0)
+        }
+    }
+
+    fn rows() -> Vec<Row> {
+        [3, 4, 5].map(Row).into()
+    }
+
+    fn lanes() -> Lanes {
+        Lanes::new(vec![("rows", Box::new(Lane::<Table<Row>>::default()))], 0)
+    }
+
+    fn ask(lanes: &mut Lanes) {
+        lanes.ask(rows(), |rows| Some(Table::new(rows)));
+    }
+
+    #[test]
+    fn parts_of_what_is_under_way_count() {
+        let (mut lanes, mut foreman) = (lanes(), Foreman::new(2));
+        ask(&mut lanes);
+        let given: Vec<_> = (0..2)
+            .map(|worker| foreman.assign(worker, &mut lanes.traffic(), (0, true)).expect("work"))
+            .collect();
+        let progress = |lanes: &Lanes| lanes.progress().next().map(|(_, part)| (300.0 * part).round());
+        assert!(foreman.told(0, given[0].0, 0.1, &mut lanes.traffic()));
+        assert!(foreman.told(0, given[0].0, 0.3, &mut lanes.traffic()));
+        assert!(foreman.told(1, given[1].0, 0.6, &mut lanes.traffic()));
+        assert_eq!(progress(&lanes), Some(90.0));
+        // Whatever a worker tells of something else is not heard.
+        assert!(!foreman.told(0, given[1].0, 0.9, &mut lanes.traffic()));
+        assert!(!foreman.told(7, given[1].0, 0.9, &mut lanes.traffic()));
+        assert_eq!(progress(&lanes), Some(90.0));
+        // What was found counts whole, whatever was told of it.
+        foreman.returned(0, given[0].0, given[0].1.carry_out(), &mut lanes.traffic());
+        assert_eq!(progress(&lanes), Some(160.0));
+        assert!(!foreman.told(0, given[0].0, 0.5, &mut lanes.traffic()));
+        assert_eq!(progress(&lanes), Some(160.0));
+        // Whoever takes the place of a worker that died begins anew.
+        foreman.died(1, &mut lanes.traffic());
+        assert_eq!(progress(&lanes), Some(100.0));
     }
 }

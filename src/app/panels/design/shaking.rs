@@ -17,7 +17,8 @@ use crate::model::base_motion::BaseMotion;
 use crate::questions::batch_means::Harvested;
 use crate::questions::shake::ShakeAnswer;
 use crate::questions::shaken_run::{Found, ShakenRun};
-use crate::scheduler::{Asked as _, Failure, Study as _, Table};
+use crate::scheduler::lane::Traffic;
+use crate::scheduler::{Asked as _, Failure, Table};
 use crate::sentence::Say;
 
 /// Asks for the runs.
@@ -149,7 +150,11 @@ pub(in crate::app) fn said(view: &View, bench: &Bench, studies: &Studies) -> Vec
         None => Vec::new(),
     };
     let answer = question(view, bench).and_then(|(_, shake)| shake.summary(&found));
-    let Some(answer) = answer else { return vec![(Meant::Aside, waiting_for(view, bench).to_owned())] };
+    let Some(answer) = answer else {
+        let waiting = || waiting_for(view, bench).to_owned();
+        let part = studies.lanes.lane::<Table<ShakenRun>>().and_then(Traffic::progress);
+        return vec![(Meant::Aside, part.map_or_else(waiting, super::super::computing))];
+    };
     let mut lines = Vec::new();
     if answer.outcome != "completed" {
         let time = significant(answer.t_outcome, 3);
@@ -180,9 +185,9 @@ pub(in crate::app) fn said(view: &View, bench: &Bench, studies: &Studies) -> Vec
         lines.push((Meant::Found, text));
     }
     lines.extend(answer.gain.map(|gain| (Meant::Found, gained(by, gain, answer.gain_error))));
-    let unfinished = studies.lanes.study::<Table<ShakenRun>>().filter(|study| !study.finished());
+    let unfinished = studies.lanes.lane::<Table<ShakenRun>>().and_then(Traffic::progress);
     let text = match (unfinished, by) {
-        (Some(study), _) => super::super::computing(study.progress()),
+        (Some(part), _) => super::super::computing(part),
         (None, ShakenBy::Noise) => tr("Under noise nothing repeats: there is no verdict, no Poincaré map and no branch, only means with their errors.").to_owned(),
         (None, ShakenBy::Chirp) => tr("Where the motion jumps up and where it jumps down differ: that is hysteresis.").to_owned(),
         (None, ShakenBy::Recorded) => tr("One recording is one sample: how much of these means is chance cannot be known from it.").to_owned(),
