@@ -86,12 +86,25 @@ impl<S> Default for Lane<S> {
 impl<S: Study> Lane<S> {
     /// Replaces the question at once: what is under way for the old one will be dropped.
     pub fn ask(&mut self, study: S) {
-        self.book.turn_over();
-        self.under_way.clear();
-        self.waiting = None;
+        self.drop_work();
         if let Some(old) = self.study.replace(study).filter(Study::finished) {
             self.before = Some(old);
         }
+    }
+
+    /// Changes what the study goes on with, as when it is stopped or taken up again: what is under way for it will be dropped,
+    /// and nothing waits any more.
+    pub fn redirect(&mut self, change: impl FnOnce(&mut S)) {
+        self.drop_work();
+        if let Some(study) = &mut self.study {
+            change(study);
+        }
+    }
+
+    fn drop_work(&mut self) {
+        self.book.turn_over();
+        self.under_way.clear();
+        self.waiting = None;
     }
 
     /// Asks as soon as the present question is answered, or has a first picture, instead of any question that waits: for
@@ -104,7 +117,7 @@ impl<S: Study> Lane<S> {
         }
     }
 
-    /// Number of the newest question.
+    /// Number of the newest question, or of the newest way to go on with it.
     pub fn generation(&self) -> u64 {
         self.book.generation
     }
@@ -114,7 +127,7 @@ impl<S: Study> Lane<S> {
         self.study.as_ref()
     }
 
-    /// The newest study, to change what it is asked.
+    /// The newest study, to add to what it is asked.
     pub fn study_mut(&mut self) -> Option<&mut S> {
         self.study.as_mut()
     }
