@@ -11,7 +11,8 @@ async function start({ script, wasm }) {
 async function receive({ data }) {
   try {
     if (app) {
-      self.postMessage((await app).carry_out(data));
+      const post = (message) => self.postMessage(message);
+      post((await app).carry_out(data, post));
     } else {
       app = start(data);
       await app;

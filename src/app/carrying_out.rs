@@ -39,6 +39,7 @@ impl App {
                 let begun = self.crew.borrow_mut().studies.search(question, &self.view);
                 self.bench.refusal = begun.err();
             }
+            Command::Shake(on) => self.crew.borrow_mut().studies.shake(on),
             Command::Measure(wanted, Some(reading)) => self.bench.file_of(wanted).read(reading),
             Command::Measure(wanted, None) => {
                 *self.bench.file_of(wanted) = bench::measured::Measured::of(wanted);

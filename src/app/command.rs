@@ -42,6 +42,8 @@ pub(super) enum Command {
     Lesson(Action),
     /// Begin the search for a design, or end it.
     Find(bool),
+    /// Go on with what is computed about the shaking, or stop that.
+    Shake(bool),
     /// Read the columns of the file with this quantity so, or close it.
     Measure(Kind, Option<Reading>),
     /// Begins to fit the device in view to the measured data.

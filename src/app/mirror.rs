@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 
 use super::App;
 use super::link;
-use super::panels::design::shaking;
+use super::panels::design::shaking::{self, Meant};
 use super::reading::Reading;
 use super::session::Status;
 use super::text::{self, Language};
@@ -87,7 +87,9 @@ impl App {
 
     fn spoken_verdict(&self) -> Option<String> {
         if self.view.shaken().is_some() {
-            let said = shaking::said(&self.view, &self.bench, &self.crew.borrow().studies);
+            let mut said = shaking::said(&self.view, &self.bench, &self.crew.borrow().studies);
+            // How far something is changes all the time.
+            said.retain(|(meant, _)| *meant != Meant::Computing);
             return Some(said.into_iter().map(|(_, sentence)| sentence).collect::<Vec<_>>().join(" "));
         }
         let shown = self.session.shown.as_ref()?;

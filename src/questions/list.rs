@@ -24,7 +24,7 @@ use super::tongues::{Border, TongueStudy};
 use super::trust::Entry;
 use crate::scheduler::lane::Traffic;
 use crate::scheduler::piece::Hand;
-use crate::scheduler::{Failure, Lane, Lanes, Single, Study, Table};
+use crate::scheduler::{Failure, Lane, Lanes, Single, Study, Table, Tell};
 
 /// What requests may ask: the native command, JavaScript, and programs that the page writes.
 pub const TASKS: &[Task] = &[
@@ -119,12 +119,12 @@ pub fn lanes() -> Lanes {
     Lanes::new(lanes, 4)
 }
 
-/// Carries out a piece that came as bytes, on behalf of whoever sent it; what it found as bytes.
+/// Carries out a piece that came as bytes, on behalf of whoever sent it, telling how far it is; what it found as bytes.
 ///
 /// # Errors
 /// As [`Piece::carry_out`](crate::scheduler::Piece::carry_out).
-pub fn carry_out(name: &str, message: &[u8]) -> Result<Vec<u8>, Failure> {
+pub fn carry_out(name: &str, message: &[u8], tell: Tell<'_>) -> Result<Vec<u8>, Failure> {
     let unknown = || Failure::Verbatim(format!("no piece is a {name}"));
     let hand = HANDS.iter().find(|hand| hand.name == name).ok_or_else(unknown)?;
-    (hand.carry_out)(message)
+    (hand.carry_out)(message, tell)
 }

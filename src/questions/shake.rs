@@ -10,7 +10,7 @@ use super::question::Question;
 use super::shaken_run::{Found, ShakenRun};
 use crate::model::base_motion::BaseMotion;
 use crate::scenario::{Forgotten, Scenario};
-use crate::scheduler::{Budget, Failure, Piece, Table, complete_within};
+use crate::scheduler::{Budget, Failure, Piece, Table, Tell, complete_within};
 
 /// Numbers of realisations that may be asked for.
 pub const REALISATIONS: (usize, usize) = (1, 200);
@@ -161,10 +161,16 @@ impl Piece for AtLevel {
     type Found = Level;
 
     fn carry_out(&self) -> Result<Level, Failure> {
+        self.carry_out_telling(&|_| ())
+    }
+
+    fn carry_out_telling(&self, tell: Tell<'_>) -> Result<Level, Failure> {
         let Self { scenario, excitation, realisations } = self;
         let (realisations, points) = (*realisations, POINTS.0);
         let runs = ShakenRun::pairs(scenario, excitation, realisations, points);
-        let runs: Vec<Found> = runs.map(|run| run.run()).collect::<Result<_, _>>()?;
+        let all = 2.0 * realisations as f64;
+        let runs = runs.enumerate().map(|(i, run)| run.run(&|part| tell((i as f64 + part) / all)));
+        let runs: Vec<Found> = runs.collect::<Result<_, _>>()?;
         let summary = Shake { excitation: excitation.clone(), realisations, points }
             .summary(&runs.iter().collect::<Vec<_>>());
         let (own, linear, completed) =

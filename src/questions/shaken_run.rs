@@ -12,13 +12,16 @@ use crate::dynamics::integration::shaken::{PARTS, Part};
 use crate::model::base_motion::{BaseMotion, Signal};
 use crate::model::{ReducedSystem, STANDARD_GRAVITY, Units};
 use crate::scenario::Scenario;
-use crate::scheduler::{Failure, Piece};
+use crate::scheduler::{Failure, Piece, Tell};
 use crate::theory::spectrum::eigenvalues;
 
 /// After so many times the slowest vibration's time of decay the start is forgotten: 0.1 % of it is left.
 const FORGOTTEN_AFTER: f64 = 7.0;
 /// Most of a run that is left out for its start.
 const MOST_LEFT_OUT: f64 = 0.25;
+
+/// Steps, milliseconds of them, after which the done part is told.
+const STEPS: usize = 4096;
 
 /// One run.
 #[derive(Debug, Clone, PartialEq, SerBin, DeBin)]
@@ -88,7 +91,11 @@ impl Piece for ShakenRun {
     type Found = Found;
 
     fn carry_out(&self) -> Result<Found, Failure> {
-        Ok(self.run()?)
+        Ok(self.run(&|_| ())?)
+    }
+
+    fn carry_out_telling(&self, tell: Tell<'_>) -> Result<Found, Failure> {
+        Ok(self.run(tell)?)
     }
 }
 
@@ -109,11 +116,11 @@ impl ShakenRun {
         })
     }
 
-    /// Carries it out.
+    /// Carries it out, telling how far it is after every so many steps.
     ///
     /// # Errors
     /// [`DesignError`] for a device or a shaking that cannot be.
-    pub fn run(&self) -> Result<Found, DesignError> {
+    pub fn run(&self, tell: Tell<'_>) -> Result<Found, DesignError> {
         let (plant, system) = self.device()?;
         let shaking = self.excitation.signal(self.realisation)?;
         let signal = dimensionless(&shaking, &plant.units);
@@ -123,18 +130,18 @@ impl ShakenRun {
         let shown = Spectrogram::highest(&self.excitation, &system, &plant.units);
         let every = (1.0 / (4.0 * shown * shaking.interval())).floor().max(1.0) as usize;
         let mut run = Shaken::new(&system, Arc::new(signal), &initial, (self.points, every))?;
+        let (seconds, duration) = (plant.units.time, shaking.duration());
         let outcome = loop {
-            if let Some(outcome) = run.advance(usize::MAX)? {
+            if let Some(outcome) = run.advance(STEPS)? {
                 break outcome;
             }
+            tell(run.time() * seconds / duration);
         };
-        let seconds = plant.units.time;
         let measures = plant.in_si(&run.measures().unwrap_or_default());
         let part = |part: &Part| {
             let mean = |sum: f64| if part.duration > 0.0 { sum / part.duration } else { 0.0 };
             (part.duration * seconds, mean(part.square), plant.units.watts(mean(part.input)))
         };
-        let duration = shaking.duration();
         let left_out = (FORGOTTEN_AFTER * decay * seconds).min(MOST_LEFT_OUT * duration);
         let whole = (left_out / duration * PARTS as f64).ceil() / PARTS as f64 * duration;
         Ok(Found {
@@ -180,4 +187,32 @@ pub fn dimensionless(signal: &Signal, units: &Units) -> Signal {
 fn slowest_decay(system: &ReducedSystem) -> Result<f64, DesignError> {
     let vibrations = eigenvalues(system)?.into_iter().filter(|value| value.im > 0.0);
     Ok(1.0 / vibrations.map(|value| -value.re).fold(f64::INFINITY, f64::min).max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+    use crate::model::base_motion::Noise;
+
+    #[test]
+    fn a_run_tells_how_far_it_is_and_finds_the_same() {
+        let noise = Noise {
+            from: Some(1.0),
+            to: Some(12.0),
+            rms: Some(0.02),
+            spectrum: None,
+            duration: 200.0,
+            seed: 0,
+        };
+        let excitation = BaseMotion::Noise(noise);
+        let run = ShakenRun::pairs(&Scenario::default(), &excitation, 1, 20).nth(1).expect("without magnets");
+        let parts = RefCell::new(Vec::new());
+        let found = run.carry_out_telling(&|part| parts.borrow_mut().push(part)).expect("a run");
+        assert_eq!(run.carry_out(), Ok(found));
+        let parts = parts.into_inner();
+        assert!(parts.len() > 1 && parts.is_sorted_by(|a, b| a < b), "{parts:?}");
+        assert!(parts[0] > 0.0 && parts[0] < 0.6 && parts[parts.len() - 1] < 1.0, "{parts:?}");
+    }
 }

@@ -83,6 +83,18 @@ impl Foreman {
         }
     }
 
+    /// A worker tells how far, 0 to 1, it is with the piece of a number. Whether that is its present piece.
+    pub fn told(&self, worker: usize, number: u64, part: f64, lanes: &mut [&mut dyn Traffic]) -> bool {
+        let Some(Some(present)) = self.busy.get(worker) else { return false };
+        if present.number != number {
+            return false;
+        }
+        if let Some(lane) = lanes.get_mut(present.lane) {
+            lane.hear(present.generation, present.ticket.number, part);
+        }
+        true
+    }
+
     /// A worker died: its piece goes back.
     pub fn died(&mut self, worker: usize, lanes: &mut [&mut dyn Traffic]) {
         if let Some(lost) = self.busy.get_mut(worker).and_then(Option::take)

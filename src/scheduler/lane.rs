@@ -1,7 +1,6 @@
 //! Lanes: the newest question of each topic.
 
 use std::any::Any;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::piece::{Failure, Finding, Work};
@@ -13,42 +12,99 @@ const MOST_DEATHS: u32 = 2;
 
 /// The newest question of a topic, with what may be shown until it is answered.
 pub struct Lane<S> {
-    generation: u64,
     study: Option<S>,
     /// Asked next, when the present study is finished or has a first picture.
     waiting: Option<S>,
     /// The last finished study before the present one.
     before: Option<S>,
     /// What the study does with its pieces under way, by ticket.
-    under_way: BTreeMap<usize, Take<S>>,
+    under_way: Vec<(usize, Take<S>)>,
+    book: Book,
+}
+
+/// What a lane keeps whatever its study, so that it is compiled once.
+#[derive(Default)]
+struct Book {
+    generation: u64,
     handed: usize,
     redo: Vec<Ticket>,
+    /// How far, 0 to 1, pieces under way are that tell it, by ticket.
+    parts: Vec<(usize, f64)>,
+}
+
+impl Book {
+    /// Nobody waits any more for what is under way.
+    fn turn_over(&mut self) {
+        self.generation += 1;
+        self.redo.clear();
+        self.parts.clear();
+    }
+
+    /// A ticket for a piece not handed out before.
+    fn ticket(&mut self, work: Arc<dyn Work>) -> Ticket {
+        self.handed += 1;
+        Ticket { number: self.handed, work, deaths: 0 }
+    }
+
+    fn hear(&mut self, generation: u64, ticket: usize, part: f64) {
+        if self.ends(generation, ticket) {
+            self.parts.push((ticket, part));
+        }
+    }
+
+    /// Forgets how far a piece is. Whether it belongs to the newest question.
+    fn ends(&mut self, generation: u64, ticket: usize) -> bool {
+        self.parts.retain(|(of, _)| *of != ticket);
+        generation == self.generation
+    }
+
+    /// Has a piece done again whose worker died; its number when it is to be given up.
+    fn again(&mut self, generation: u64, ticket: Ticket) -> Option<usize> {
+        let deaths = ticket.deaths + 1;
+        if !self.ends(generation, ticket.number) {
+            None
+        } else if deaths < MOST_DEATHS {
+            self.redo.push(Ticket { deaths, ..ticket });
+            None
+        } else {
+            Some(ticket.number)
+        }
+    }
+
+    /// What pieces under way are together, in pieces.
+    fn parts(&self) -> f64 {
+        self.parts.iter().map(|(_, part)| part).sum()
+    }
 }
 
 impl<S> Default for Lane<S> {
     fn default() -> Self {
-        Self {
-            generation: 0,
-            study: None,
-            waiting: None,
-            before: None,
-            under_way: BTreeMap::new(),
-            handed: 0,
-            redo: Vec::new(),
-        }
+        Self { study: None, waiting: None, before: None, under_way: Vec::new(), book: Book::default() }
     }
 }
 
 impl<S: Study> Lane<S> {
     /// Replaces the question at once: what is under way for the old one will be dropped.
     pub fn ask(&mut self, study: S) {
-        self.generation += 1;
-        self.redo.clear();
-        self.under_way.clear();
-        self.waiting = None;
+        self.drop_work();
         if let Some(old) = self.study.replace(study).filter(Study::finished) {
             self.before = Some(old);
         }
+    }
+
+    /// Changes what the study goes on with, as when it is stopped or taken up again: what is under way for it will be dropped,
+    /// and nothing waits any more.
+    pub fn redirect(&mut self, change: impl FnOnce(&mut S)) {
+        self.drop_work();
+        if let Some(study) = &mut self.study {
+            change(study);
+        }
+    }
+
+    fn drop_work(&mut self) {
+        self.book.turn_over();
+        self.under_way.clear();
+        self.waiting = None;
     }
 
     /// Asks as soon as the present question is answered, or has a first picture, instead of any question that waits: for
@@ -61,9 +117,9 @@ impl<S: Study> Lane<S> {
         }
     }
 
-    /// Number of the newest question.
+    /// Number of the newest question, or of the newest way to go on with it.
     pub fn generation(&self) -> u64 {
-        self.generation
+        self.book.generation
     }
 
     /// The newest study, finished or not.
@@ -71,7 +127,7 @@ impl<S: Study> Lane<S> {
         self.study.as_ref()
     }
 
-    /// The newest study, to change what it is asked.
+    /// The newest study, to add to what it is asked.
     pub fn study_mut(&mut self) -> Option<&mut S> {
         self.study.as_mut()
     }
@@ -95,6 +151,8 @@ pub trait Traffic: Any {
     fn next(&mut self) -> Option<Ticket>;
     /// Takes a finding, unless it belongs to an older question.
     fn take(&mut self, generation: u64, ticket: usize, finding: Result<Finding, Failure>);
+    /// Hears how far, 0 to 1, a piece under way is, unless it belongs to an older question.
+    fn hear(&mut self, generation: u64, ticket: usize, part: f64);
     /// Takes back a piece whose worker died, unless it belongs to an older question.
     fn take_back(&mut self, generation: u64, ticket: Ticket);
     /// Done part, 0 to 1; `None` when nothing is being computed.
@@ -115,24 +173,26 @@ pub struct Ticket {
 
 impl<S: Study> Traffic for Lane<S> {
     fn generation(&self) -> u64 {
-        self.generation
+        self.book.generation
     }
 
     fn next(&mut self) -> Option<Ticket> {
-        self.redo.pop().or_else(|| {
+        self.book.redo.pop().or_else(|| {
             let order = self.study.as_mut()?.next()?;
-            self.handed += 1;
-            self.under_way.insert(self.handed, order.take);
-            Some(Ticket { number: self.handed, work: order.work, deaths: 0 })
+            let ticket = self.book.ticket(order.work);
+            self.under_way.push((ticket.number, order.take));
+            Some(ticket)
         })
     }
 
     fn take(&mut self, generation: u64, ticket: usize, finding: Result<Finding, Failure>) {
-        if generation != self.generation {
+        if !self.book.ends(generation, ticket) {
             return;
         }
-        if let (Some(study), Some(take)) = (&mut self.study, self.under_way.remove(&ticket)) {
-            take(study, finding);
+        if let Some(study) = &mut self.study
+            && let Some(place) = self.under_way.iter().position(|(of, _)| *of == ticket)
+        {
+            self.under_way.swap_remove(place).1(study, finding);
         }
         if self.study.as_ref().is_none_or(Study::is_replaceable)
             && let Some(next) = self.waiting.take()
@@ -141,25 +201,25 @@ impl<S: Study> Traffic for Lane<S> {
         }
     }
 
+    fn hear(&mut self, generation: u64, ticket: usize, part: f64) {
+        self.book.hear(generation, ticket, part);
+    }
+
     fn take_back(&mut self, generation: u64, ticket: Ticket) {
-        if generation != self.generation {
-            return;
-        }
-        let deaths = ticket.deaths + 1;
-        if deaths < MOST_DEATHS {
-            self.redo.push(Ticket { deaths, ..ticket });
-        } else {
+        if let Some(number) = self.book.again(generation, ticket) {
             let failure = said("the computation stopped its worker twice and was given up", &[]);
-            self.take(generation, ticket.number, Err(failure));
+            self.take(generation, number, Err(failure));
         }
     }
 
     fn progress(&self) -> Option<f64> {
-        self.study.as_ref().filter(|study| !study.finished()).map(Study::progress)
+        let study = self.study.as_ref().filter(|study| !study.finished())?;
+        Some(study.progress() + study.share() * self.book.parts())
     }
 
     fn is_sketched(&self) -> bool {
-        self.redo.is_empty() && self.study.as_ref().is_some_and(|study| !study.finished() && study.sketches())
+        self.book.redo.is_empty()
+            && self.study.as_ref().is_some_and(|study| !study.finished() && study.sketches())
     }
 }
 

@@ -12,6 +12,11 @@
 //! cores, and begins none when the `Budget` of a request is spent; in the page `app::crew` gives them to web workers
 //! and takes findings in inside the message handler, so that work goes on in a background tab.
 //!
+//! A piece that may take long tells how far it is: its worker sends that while it computes (in the page; natively progress
+//! goes by whole pieces), its lane counts it, and a worker that is heard of is not taken for one that hangs. To stop a study,
+//! or to go on with it, its lane is `redirect`ed: what is under way is obsolete then, as after another question, so that a
+//! worker that does not come to an end is replaced. What was stopped stays asked, and so is not begun again by itself.
+//!
 //! A lane is found by the type of its study; `questions::list::lanes` says which there are, and which are urgent. It
 //! asks anew when what is [`Asked`] differs from the last. What plays no role in an answer is taken out by
 //! `Scenario::forgetting` before that, so that moving it asks nothing new.
@@ -37,7 +42,7 @@ pub mod table;
 
 pub use budget::Budget;
 pub use lane::{Lane, Lanes};
-pub use piece::{Failure, Finding, Piece, Work};
+pub use piece::{Failure, Finding, Piece, Tell, Work};
 pub use single::Single;
 pub use study::{Asked, Order, Study, complete, complete_within};
 pub use table::Table;

@@ -9,6 +9,9 @@ use nanoserde::{DeBin, SerBin};
 
 use crate::sentence::{Sentence, said};
 
+/// Who is told the done part of a piece, 0 to 1, as it grows.
+pub type Tell<'a> = &'a dyn Fn(f64);
+
 /// A piece of work, done within a fraction of a second unless it says otherwise.
 pub trait Piece: SerBin + DeBin + Send + Sync + 'static {
     /// Its name on the way to a worker.
@@ -23,6 +26,14 @@ pub trait Piece: SerBin + DeBin + Send + Sync + 'static {
     /// # Errors
     /// What is out of range or cannot be computed.
     fn carry_out(&self) -> Result<Self::Found, Failure>;
+
+    /// The same, telling how far it is, where the piece may take long.
+    ///
+    /// # Errors
+    /// As [`Self::carry_out`].
+    fn carry_out_telling(&self, _tell: Tell<'_>) -> Result<Self::Found, Failure> {
+        self.carry_out()
+    }
 }
 
 /// Why a piece found nothing.
@@ -91,8 +102,8 @@ impl<P: Piece> Work for P {
 pub struct Hand {
     /// The piece's name.
     pub name: &'static str,
-    /// Reads the piece, carries it out, and writes what was found.
-    pub carry_out: fn(&[u8]) -> Result<Vec<u8>, Failure>,
+    /// Reads the piece, carries it out, telling how far it is, and writes what was found.
+    pub carry_out: fn(&[u8], Tell<'_>) -> Result<Vec<u8>, Failure>,
 }
 
 impl Hand {
@@ -100,9 +111,9 @@ impl Hand {
     pub const fn of<P: Piece>() -> Self {
         Self {
             name: P::NAME,
-            carry_out: |message| {
+            carry_out: |message, tell| {
                 let piece = P::deserialize_bin(message).map_err(|_| broken())?;
-                Ok(Piece::carry_out(&piece)?.serialize_bin())
+                Ok(piece.carry_out_telling(tell)?.serialize_bin())
             },
         }
     }

@@ -71,6 +71,11 @@ pub trait Study: Sized + 'static {
     /// Whether everything asked for is there, or failed.
     fn finished(&self) -> bool;
 
+    /// Part, 0 to 1, that each piece is of it, where pieces take long and tell how far they are.
+    fn share(&self) -> f64 {
+        0.0
+    }
+
     /// Whether the next piece is of a first, coarse picture that takes milliseconds: it goes before everything else.
     fn sketches(&self) -> bool {
         false
@@ -99,20 +104,19 @@ pub fn complete(study: &mut (impl Study + Send)) {
 /// The same as far as `budget` goes. Findings are taken in the order in which the pieces were handed out, so that the
 /// same study always ends the same, and each as soon as it can be.
 pub fn complete_within(study: &mut (impl Study + Send), budget: &Budget<'_>) {
-    run(&mut Desk { study, due: BTreeMap::new(), taken: 0, handed: 0 }, budget);
+    run(&mut Desk { study, due: Vec::new(), taken: 0 }, budget);
 }
 
-/// A study with its pieces under way, by the order in which they were handed out.
+/// A study with the pieces handed out last, in their order.
 struct Desk<'a, S> {
     study: &'a mut S,
-    due: BTreeMap<usize, Take<S>>,
+    due: Vec<Option<Take<S>>>,
     taken: usize,
-    handed: usize,
 }
 
 /// A study at its desk, whatever it is.
 trait Open: Send {
-    /// The next pieces, at most `most`.
+    /// The next pieces, at most `most`, numbered from 0.
     fn hand_out(&mut self, most: usize) -> Vec<(usize, Arc<dyn Work>)>;
     /// Takes what was found for a piece whose turn it is.
     fn take(&mut self, place: usize, finding: Result<Finding, Failure>);
@@ -125,21 +129,21 @@ trait Open: Send {
 
 impl<S: Study + Send> Open for Desk<'_, S> {
     fn hand_out(&mut self, most: usize) -> Vec<(usize, Arc<dyn Work>)> {
-        self.taken = self.handed;
+        self.due.clear();
+        self.taken = 0;
         let mut pieces = Vec::new();
         while pieces.len() < most
             && let Some(order) = self.study.next()
         {
-            self.due.insert(self.handed, order.take);
-            pieces.push((self.handed, order.work));
-            self.handed += 1;
+            pieces.push((self.due.len(), order.work));
+            self.due.push(Some(order.take));
         }
         pieces
     }
 
     fn take(&mut self, place: usize, finding: Result<Finding, Failure>) {
         self.taken = self.taken.max(place + 1);
-        if let Some(take) = self.due.remove(&place) {
+        if let Some(take) = self.due.get_mut(place).and_then(Option::take) {
             take(self.study, finding);
         }
     }

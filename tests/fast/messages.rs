@@ -1,5 +1,6 @@
 //! What page and workers send each other arrives as it was sent, and every question is on the list.
 
+use std::cell::RefCell;
 use std::fmt::Debug;
 
 use harvester_lab::dynamics::attractors::sweep::Dwell;
@@ -56,11 +57,16 @@ where
 {
     let message = piece.serialize_bin();
     assert_eq!(&P::deserialize_bin(&message).expect("a message"), piece);
-    assert!(list::carry_out(P::NAME, &message[..message.len() - 1]).is_err(), "a message cut short");
+    let parts = RefCell::new(Vec::new());
+    let tell = |part| parts.borrow_mut().push(part);
+    let cut_short = &message[..message.len() - 1];
+    assert!(list::carry_out(P::NAME, cut_short, &tell).is_err(), "a message cut short");
     let found = piece.carry_out().expect("a finding");
-    let answer = list::carry_out(P::NAME, &message).expect("a finding");
+    let answer = list::carry_out(P::NAME, &message, &tell).expect("a finding");
     assert_eq!(Finding::Message(answer.clone()).open::<P::Found>().expect("a message"), found);
     assert!(Finding::Message(answer[..answer.len() - 1].to_vec()).open::<P::Found>().is_err());
+    let parts = parts.into_inner();
+    assert!(parts.is_sorted() && parts.iter().all(|part| (0.0..=1.0).contains(part)), "{parts:?}");
     P::NAME
 }
 
@@ -179,7 +185,7 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
     names.sort_unstable();
     known.sort_unstable();
     assert_eq!(names, known, "every piece has one hand");
-    assert!(list::carry_out("nothing", &[]).is_err());
+    assert!(list::carry_out("nothing", &[], &|_| ()).is_err());
 }
 
 /// The README's table and the order of its rows.

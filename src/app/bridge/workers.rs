@@ -1,11 +1,11 @@
 //! Web workers as the crew's hands. Each runs this same module, started by `assets/shell/worker.js`, so page and workers
 //! cannot be of different versions.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
-use js_sys::Uint8Array;
+use js_sys::{Function, Uint8Array};
 use nanoserde::{DeBin, SerBin};
 use wasm_bindgen::prelude::{Closure, wasm_bindgen};
 use wasm_bindgen::{JsCast as _, JsValue};
@@ -13,10 +13,13 @@ use web_sys::{MessageEvent, Worker};
 
 use crate::app::crew::{Crew, Workers};
 use crate::questions::list;
+use crate::scheduler::budget::now;
 use crate::scheduler::{Failure, Finding, Work};
 
 /// Fewest and most workers.
 const COUNTS: (usize, usize) = (2, 8);
+/// Seconds between two messages on how far a piece is.
+const BETWEEN_PARTS: f64 = 0.05;
 
 /// A piece on its way to a worker, and what comes back.
 #[derive(SerBin, DeBin)]
@@ -37,13 +40,27 @@ struct Report {
 enum Outcome {
     Found(Vec<u8>),
     Failed(Failure),
+    /// It is under way, and so far, 0 to 1.
+    Partly(f64),
 }
 
-/// Inside a worker: carries out an order and reports, in the binary form of messages.
+/// Inside a worker: carries out an order and reports, in the binary form of messages. Until then `post` sends how far it is:
+/// such messages leave a worker while it computes.
 #[wasm_bindgen]
-pub fn carry_out(order: &[u8]) -> Vec<u8> {
+pub fn carry_out(order: &[u8], post: &Function) -> Vec<u8> {
     let (number, finding) = match Order::deserialize_bin(order) {
-        Ok(Order { number, name, piece }) => (number, list::carry_out(&name, &piece)),
+        Ok(Order { number, name, piece }) => {
+            let told = Cell::new(now());
+            let tell = |part: f64| {
+                if now() - told.get() >= BETWEEN_PARTS {
+                    told.set(now());
+                    let report = Report { number, outcome: Outcome::Partly(part) }.serialize_bin();
+                    // What does not arrive is told again soon.
+                    let _ = post.call1(&JsValue::NULL, &Uint8Array::from(report.as_slice()));
+                }
+            };
+            (number, list::carry_out(&name, &piece, &tell))
+        }
         Err(error) => (0, Err(Failure::Verbatim(error.to_string()))),
     };
     let outcome = finding.map_or_else(Outcome::Failed, Outcome::Found);
@@ -97,11 +114,14 @@ impl WebWorkers {
             let message =
                 event.data().dyn_into::<Uint8Array>().map(|bytes| bytes.to_vec()).unwrap_or_default();
             if let Ok(report) = Report::deserialize_bin(&message) {
-                let finding = match report.outcome {
-                    Outcome::Found(message) => Ok(Finding::Message(message)),
-                    Outcome::Failed(why) => Err(why),
-                };
-                crew.borrow_mut().returned(number, report.number, finding);
+                let mut crew = crew.borrow_mut();
+                match report.outcome {
+                    Outcome::Found(message) => {
+                        crew.returned(number, report.number, Ok(Finding::Message(message)));
+                    }
+                    Outcome::Failed(why) => crew.returned(number, report.number, Err(why)),
+                    Outcome::Partly(part) => crew.told(number, report.number, part),
+                }
             }
             taken(&crew);
         });

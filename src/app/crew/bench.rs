@@ -11,8 +11,10 @@ use crate::questions::find::FindStudy;
 use crate::questions::fit::{Fit, FitStudy};
 use crate::questions::harvest::{Deliver, HarvestStudy};
 use crate::questions::load::LoadStudy;
+use crate::questions::shake::AtLevel;
+use crate::questions::shaken_run::ShakenRun;
 use crate::scenario::Scenario;
-use crate::scheduler::{Asked as _, Failure, Single, Study as _};
+use crate::scheduler::{Asked as _, Failure, Piece, Single, Study, Table};
 use crate::sentence::Sentence;
 
 /// The same search every time.
@@ -51,17 +53,36 @@ impl Studies {
     ) -> Result<(), Sentence> {
         let Some(lane) = self.lanes.lane_mut::<FindStudy>() else { return Ok(()) };
         let Some(question) = question else {
-            let under_way = lane.study_mut().filter(|study| !study.finished());
-            self.ended = under_way.is_none_or(|study| {
-                study.stop();
-                study.best().is_none()
-            });
+            let put_away = lane.study().is_none_or(Study::finished);
+            lane.redirect(FindStudy::stop);
+            self.ended = put_away || lane.study().is_none_or(|study| study.best().is_none());
             return Ok(());
         };
         self.ended = false;
         let study = FindStudy::new(question, view.design.search.generations, SEED);
         lane.ask(study?);
         Ok(())
+    }
+
+    /// Goes on with the runs under any shaking, and with those over its level, where they were stopped, or stops them.
+    pub(in crate::app) fn shake(&mut self, on: bool) {
+        self.turn::<ShakenRun>(on);
+        self.turn::<AtLevel>(on);
+    }
+
+    /// Goes on with what is computed over the level, which was stopped with other runs than these.
+    pub(in crate::app) fn shake_over_levels(&mut self) {
+        if self.lanes.study::<Table<ShakenRun>>().is_some_and(|runs| !runs.is_stopped()) {
+            self.turn::<AtLevel>(true);
+        }
+    }
+
+    fn turn<P: Piece + Clone>(&mut self, on: bool) {
+        if let Some(lane) = self.lanes.lane_mut::<Table<P>>()
+            && lane.study().is_some_and(|table| !table.is_whole() && table.is_stopped() == on)
+        {
+            lane.redirect(if on { Table::resume } else { Table::stop });
+        }
     }
 
     /// Begins a fit.

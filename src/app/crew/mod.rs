@@ -19,7 +19,7 @@ use crate::scheduler::{Failure, Finding, Work};
 
 /// A worker may go on with a piece that nobody waits for any more for this long; then it is replaced.
 const OBSOLETE_MS: f64 = 2000.0;
-/// Longest time for a piece; a request asked from outside may take longer.
+/// Longest time for a piece, since it last told how far it is; a request asked from outside may take longer.
 const LONGEST_MS: f64 = 60_000.0;
 const LONGEST_ANSWER_MS: f64 = 3_600_000.0;
 
@@ -85,6 +85,14 @@ impl Crew {
     pub fn returned(&mut self, worker: usize, number: u64, finding: Result<Finding, Failure>) {
         self.foreman.returned(worker, number, finding, &mut self.studies.lanes.traffic());
         self.hand_out();
+    }
+
+    /// A worker tells how far, 0 to 1, it is with its piece: it may take its time.
+    pub fn told(&mut self, worker: usize, number: u64, part: f64) {
+        if self.foreman.told(worker, number, part, &mut self.studies.lanes.traffic()) {
+            let (since, longest) = &mut self.begun[worker];
+            *longest = longest.max(milliseconds() - *since + LONGEST_MS);
+        }
     }
 
     /// A worker died: another takes its place and its piece is done again.

@@ -32,7 +32,7 @@ fn so_far(run: &Found) -> Vec<[f64; 2]> {
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let runs = found(context).and_then(Result::ok).unwrap_or_default();
     if runs.is_empty() {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), &waiting(context));
     }
     let curves: Vec<(bool, Vec<[f64; 2]>)> = runs.iter().map(|run| (run.magnets, so_far(run))).collect();
     let highest = curves.iter().flat_map(|(_, curve)| curve).map(|point| point[1]).fold(0.0, f64::max);

@@ -27,7 +27,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let found = found(context).and_then(Result::ok).unwrap_or_default();
     let Some(shown) = found.iter().find_map(|run| run.spectrogram.as_ref()).filter(|shown| shown.columns > 0)
     else {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), &waiting(context));
     };
     let tokens = theme::tokens(ui);
     let highest = shown.amplitudes.iter().copied().fold(0.0, f32::max).max(f32::MIN_POSITIVE);

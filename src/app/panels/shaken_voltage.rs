@@ -17,7 +17,7 @@ pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Shake), |_| tr("Volta
 
 fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(answer) = summary(context) else {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), &waiting(context));
     };
     legend::legend(ui, &[(Series::Numeric, tr("lowest and highest voltage"))]);
     // Each part of the run has its lowest and its highest value, in the order of their times.

@@ -4,7 +4,7 @@ use egui::Ui;
 use egui_plot::PlotPoint;
 
 use super::Context;
-use super::design::shaking::{ask, found, waiting};
+use super::design::shaking::{STOPPED, ask, found, waiting};
 use super::spec::{Asking, Place, Spec};
 use crate::app::bench::shaking::{chirp, levels, over_levels, recorded};
 use crate::app::text::tr;
@@ -21,9 +21,14 @@ use crate::questions::shake::AtLevel;
 use crate::scheduler::{Asked as _, Table};
 
 /// The curves.
-pub(super) const PANEL: Spec = Spec::new(Place::Page(Page::Shake), title, contents)
-    .asking(ask_both)
-    .hint(|context| context.computing::<Table<AtLevel>>(""));
+pub(super) const PANEL: Spec =
+    Spec::new(Place::Page(Page::Shake), title, contents).asking(ask_both).hint(hint);
+
+fn hint(context: &Context<'_>) -> String {
+    let stopped = context.studies.lanes.study::<Table<AtLevel>>().is_some_and(Table::is_stopped);
+    let by_noise = context.view.design.shake.by == ShakenBy::Noise;
+    context.computing::<Table<AtLevel>>(if stopped && by_noise { tr(STOPPED) } else { "" })
+}
 
 fn title(view: &View) -> &'static str {
     match view.design.shake.by {
@@ -39,6 +44,7 @@ fn ask_both(asking: &mut Asking<'_>) {
         && let Some(levels) = over_levels(asking.view, asking.bench)
     {
         asking.studies.tabulate(levels);
+        asking.studies.shake_over_levels();
     }
 }
 
@@ -56,7 +62,7 @@ fn over_level(context: &Context<'_>, ui: &mut Ui) {
     let asked =
         |study: &&Table<AtLevel>| wanted.as_ref().is_some_and(|wanted| study.asked() == wanted.asked());
     let Some(study) = study.filter(asked) else {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), &waiting(context));
     };
     legend::legend(
         ui,
@@ -108,7 +114,7 @@ fn over_level(context: &Context<'_>, ui: &mut Ui) {
 fn over_frequency(context: &Context<'_>, ui: &mut Ui) {
     let runs = found(context).and_then(Result::ok).unwrap_or_default();
     if runs.is_empty() {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), &waiting(context));
     }
     legend::legend(
         ui,
@@ -138,7 +144,7 @@ fn over_frequency(context: &Context<'_>, ui: &mut Ui) {
 fn recording(context: &Context<'_>, ui: &mut Ui) {
     let file = recorded(context.view, context.bench).and(context.bench.vibration.file.as_ref());
     let Some(file) = file else {
-        return plot_style::no_data(ui, ui.available_rect_before_wrap(), waiting(context));
+        return plot_style::no_data(ui, ui.available_rect_before_wrap(), &waiting(context));
     };
     legend::legend(ui, &[(Series::Measured, tr("recorded"))]);
     let points: Vec<PlotPoint> =

@@ -5,9 +5,10 @@ use egui::{RichText, Ui};
 use super::shaken_by;
 use crate::app::bench::Bench;
 use crate::app::bench::shaking::{band, motion, question, runs};
+use crate::app::command::Command;
 use crate::app::crew::Studies;
 use crate::app::panels::Context;
-use crate::app::text::{fill, say, tr};
+use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::view::View;
 use crate::app::view::shake::ShakenBy;
@@ -17,7 +18,8 @@ use crate::model::base_motion::BaseMotion;
 use crate::questions::batch_means::Harvested;
 use crate::questions::shake::ShakeAnswer;
 use crate::questions::shaken_run::{Found, ShakenRun};
-use crate::scheduler::{Asked as _, Failure, Study as _, Table};
+use crate::scheduler::lane::Traffic;
+use crate::scheduler::{Asked as _, Failure, Table};
 use crate::sentence::Say;
 
 /// Asks for the runs.
@@ -31,18 +33,27 @@ pub(in crate::app::panels) fn ask(asking: &mut super::super::spec::Asking<'_>) {
 pub(in crate::app::panels) fn found<'a>(
     context: &Context<'a>,
 ) -> Option<Result<Vec<&'a Found>, &'a Failure>> {
-    found_in(context.view, context.bench, context.studies)
+    Some(in_view(context.view, context.bench, context.studies)?.found().flatten().collect())
 }
 
-fn found_in<'a>(
-    view: &View,
-    bench: &Bench,
-    studies: &'a Studies,
-) -> Option<Result<Vec<&'a Found>, &'a Failure>> {
+/// The newest runs, finished or not, when they are those of the shaking in view.
+fn in_view<'a>(view: &View, bench: &Bench, studies: &'a Studies) -> Option<&'a Table<ShakenRun>> {
     let study: &Table<ShakenRun> = studies.lanes.study()?;
     let wanted = runs(view, bench)?;
-    (study.asked() == wanted.asked()).then(|| study.found().flatten().collect())
+    (study.asked() == wanted.asked()).then_some(study)
 }
+
+/// What is said of runs that are not all there.
+fn unfinished(runs: &Table<ShakenRun>, studies: &Studies) -> Option<(Meant, String)> {
+    if runs.is_stopped() {
+        return Some((Meant::Stopped, tr(STOPPED).to_owned()));
+    }
+    let part = studies.lanes.lane::<Table<ShakenRun>>().and_then(Traffic::progress);
+    part.map(|part| (Meant::Computing, super::super::computing(part)))
+}
+
+/// What is said of what was stopped.
+pub(in crate::app::panels) const STOPPED: &str = marked("Stopped before its end.");
 
 /// What the runs so far say.
 pub(in crate::app::panels) fn summary(context: &Context<'_>) -> Option<ShakeAnswer> {
@@ -50,8 +61,10 @@ pub(in crate::app::panels) fn summary(context: &Context<'_>) -> Option<ShakeAnsw
 }
 
 /// Why there is nothing to show yet.
-pub(in crate::app::panels) fn waiting(context: &Context<'_>) -> &'static str {
-    waiting_for(context.view, context.bench)
+pub(in crate::app::panels) fn waiting(context: &Context<'_>) -> String {
+    let Context { view, bench, studies, .. } = *context;
+    let left = in_view(view, bench, studies).and_then(|runs| unfinished(runs, studies));
+    left.map_or_else(|| waiting_for(view, bench).to_owned(), |(_, text)| text)
 }
 
 fn waiting_for(view: &View, bench: &Bench) -> &'static str {
@@ -79,7 +92,7 @@ pub(in crate::app::panels) fn while_live(context: &mut Context<'_>, ui: &mut Ui)
     let weak = theme::tokens(ui).text_weak;
     Card::new("").hugging().show(ui, |ui| {
         let (text, more) = match context.live.shaken() {
-            None => (waiting(context).to_owned(), String::new()),
+            None => (waiting_for(context.view, context.bench).to_owned(), String::new()),
             Some((shaking, time)) => {
                 (now_shaken(context, &shaking.motion, time), anew(shaking.duration(), time))
             }
@@ -139,18 +152,29 @@ pub(in crate::app) enum Meant {
     Warning,
     /// It is said beside.
     Aside,
+    /// Something is under way, and can be stopped.
+    Computing,
+    /// Something was stopped, and can be taken up again.
+    Stopped,
 }
 
 /// What the runs so far say, in sentences.
 pub(in crate::app) fn said(view: &View, bench: &Bench, studies: &Studies) -> Vec<(Meant, String)> {
-    let found = match found_in(view, bench, studies) {
-        Some(Ok(found)) => found,
-        Some(Err(failure)) => return vec![(Meant::Warning, say(failure))],
-        None => Vec::new(),
+    let runs = in_view(view, bench, studies);
+    let found: Result<Vec<&Found>, &Failure> = runs.iter().flat_map(|runs| runs.found().flatten()).collect();
+    let found = match found {
+        Ok(found) => found,
+        Err(failure) => return vec![(Meant::Warning, say(failure))],
     };
+    let left = runs.and_then(|runs| unfinished(runs, studies));
     let answer = question(view, bench).and_then(|(_, shake)| shake.summary(&found));
-    let Some(answer) = answer else { return vec![(Meant::Aside, waiting_for(view, bench).to_owned())] };
-    let mut lines = Vec::new();
+    let Some(answer) = answer else {
+        let waiting = || (Meant::Aside, waiting_for(view, bench).to_owned());
+        return vec![left.unwrap_or_else(waiting)];
+    };
+    // First, so that its button does not move when there is more to say.
+    let is_whole = left.is_none();
+    let mut lines: Vec<_> = left.into_iter().collect();
     if answer.outcome != "completed" {
         let time = significant(answer.t_outcome, 3);
         let text = if answer.outcome == "contact" {
@@ -180,15 +204,23 @@ pub(in crate::app) fn said(view: &View, bench: &Bench, studies: &Studies) -> Vec
         lines.push((Meant::Found, text));
     }
     lines.extend(answer.gain.map(|gain| (Meant::Found, gained(by, gain, answer.gain_error))));
-    let unfinished = studies.lanes.study::<Table<ShakenRun>>().filter(|study| !study.finished());
-    let text = match (unfinished, by) {
-        (Some(study), _) => super::super::computing(study.progress()),
-        (None, ShakenBy::Noise) => tr("Under noise nothing repeats: there is no verdict, no Poincaré map and no branch, only means with their errors.").to_owned(),
-        (None, ShakenBy::Chirp) => tr("Where the motion jumps up and where it jumps down differ: that is hysteresis.").to_owned(),
-        (None, ShakenBy::Recorded) => tr("One recording is one sample: how much of these means is chance cannot be known from it.").to_owned(),
-    };
-    lines.push((Meant::Aside, text));
+    lines.extend(is_whole.then(|| (Meant::Aside, remark(by).to_owned())));
     lines
+}
+
+/// What is to be known of such a shaking.
+fn remark(by: ShakenBy) -> &'static str {
+    match by {
+        ShakenBy::Noise => tr(
+            "Under noise nothing repeats: there is no verdict, no Poincaré map and no branch, only means with their errors.",
+        ),
+        ShakenBy::Chirp => {
+            tr("Where the motion jumps up and where it jumps down differ: that is hysteresis.")
+        }
+        ShakenBy::Recorded => {
+            tr("One recording is one sample: how much of these means is chance cannot be known from it.")
+        }
+    }
 }
 
 /// What the magnets make of the power, and how sure that is.
@@ -216,14 +248,25 @@ fn gained(by: ShakenBy, gain: f64, error: Option<f64>) -> String {
     }
 }
 
-fn sentence(context: &Context<'_>, ui: &mut Ui) {
+fn sentence(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     for (meant, text) in said(context.view, context.bench, context.studies) {
         let colour = match meant {
             Meant::Found => tokens.text,
             Meant::Warning => tokens.danger,
-            Meant::Aside => tokens.text_weak,
+            Meant::Aside | Meant::Computing | Meant::Stopped => tokens.text_weak,
         };
-        ui.add(egui::Label::new(RichText::new(text).color(colour)).wrap());
+        let text = egui::Label::new(RichText::new(text).color(colour)).wrap();
+        if !matches!(meant, Meant::Computing | Meant::Stopped) {
+            ui.add(text);
+            continue;
+        }
+        ui.horizontal_wrapped(|ui| {
+            ui.add(text);
+            let goes_on = meant == Meant::Stopped;
+            if ui.button(if goes_on { tr("Compute") } else { tr("Stop") }).clicked() {
+                context.commands.push(Command::Shake(goes_on));
+            }
+        });
     }
 }

@@ -11,6 +11,8 @@ use crate::app::session::Status;
 use crate::app::widgets::harness::Node;
 use crate::app::widgets::number::{significant, with_unit};
 use crate::questions::harvest::HarvestStudy;
+use crate::questions::shake::AtLevel;
+use crate::scheduler::Table;
 
 fn desk(width: f32, page: &str) -> Desk {
     let stored = format!(
@@ -172,6 +174,45 @@ fn in_place_of_the_sine_noise_shakes_explore_and_the_verdict_steps_aside() {
     desk.app.view.tab = crate::app::view::Tab::Stability;
     desk.work(3);
     assert!(!desk.harness.nodes.iter().any(|node| node.label == "Shaken by: noise"));
+}
+
+#[test]
+fn what_is_computed_about_noise_can_be_stopped_and_taken_up_again() {
+    let stored = r#"{"scenario":{"model":{"force":"exact"},"parameters":{"alpha":0.005}},"design":{"shake":{"duration":20,"everywhere":true}}}"#;
+    let mut desk = Desk::new(360.0, 2400.0, stored);
+    let says = |desk: &Desk, text: &str| desk.harness.nodes.iter().any(|node| node.label.starts_with(text));
+    let begun = |desk: &Desk| says(desk, "computing ") && !says(desk, "computing 0 %");
+    for _ in 0..400 {
+        desk.work(1);
+        if begun(&desk) {
+            break;
+        }
+    }
+    assert!(begun(&desk));
+    for label in ["computing ", "Stop"] {
+        let node = desk.harness.nodes.iter().find(|node| node.label.starts_with(label)).expect("in view");
+        assert!(node.bounds.right() <= 360.0, "{node:?}");
+    }
+    press(&mut desk, Role::Button, "Stop");
+    // It stays so, however often the page asks.
+    desk.work(20);
+    desk.harness.find(Role::Label, "Stopped before its end.");
+    assert!(!desk.harness.nodes.iter().any(|node| node.label == "Stop"));
+    press(&mut desk, Role::Button, "Compute");
+    compute(&mut desk);
+    desk.harness.find(Role::Label, "Under noise nothing repeats");
+    assert!(!says(&desk, "Compute") && !says(&desk, "Stopped"));
+    // Stopped once more, another level is computed at once, and with it what was stopped over the level.
+    desk.app.change("design.shake.level", "0.021").expect("a level");
+    desk.app.carry_out(Command::Shake(false));
+    desk.work(2);
+    desk.harness.find(Role::Label, "Stopped before its end.");
+    desk.app.change("design.shake.level", "0.0211").expect("a level");
+    compute(&mut desk);
+    desk.harness.find(Role::Label, "Under noise nothing repeats");
+    let crew = desk.app.crew.borrow();
+    let levels: &Table<AtLevel> = crew.studies.lanes.study().expect("levels");
+    assert!(levels.is_whole());
 }
 
 /// A page with all of it computed.
