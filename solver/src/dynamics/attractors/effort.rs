@@ -3,7 +3,7 @@
 /// How much work a start is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Tolerance of the integration ([`Settings`]).
+    /// Tolerance of the integration ([`Settings`](crate::dynamics::Settings)).
     pub tolerance: f64,
     /// Excitation periods that are run at least.
     pub least: usize,
