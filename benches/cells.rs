@@ -12,40 +12,29 @@ use harvester_lab::scenario::Scenario;
 
 /// About the first subharmonic of a lightly damped device: periodic motions of one period and of two.
 fn chart(size: usize, modes: usize, force: ForceLaw) -> MotionPlane {
-    plane(ParameterSet { alpha: 1e-4, ..Default::default() }, (modes, force))(
-        (Coordinate::Parameter(Parameter::Omega), (7.9, 8.3)),
-        (Coordinate::Parameter(Parameter::Beta), (1e-4, 4e-3)),
-        size,
-    )
+    let omega = (Coordinate::Parameter(Parameter::Omega), (7.9, 8.3));
+    let beta = (Coordinate::Parameter(Parameter::Beta), (1e-4, 4e-3));
+    let parameters = ParameterSet { alpha: 1e-4, ..Default::default() };
+    plane(parameters, (modes, force), [omega, beta], size)
 }
 
 /// Its starts within the gap, in that tongue: period two, or with the quadratic law escape.
 fn basin(size: usize, modes: usize, force: ForceLaw) -> MotionPlane {
-    let set = ParameterSet { alpha: 1e-4, beta: 2.5e-3, omega: 8.0969, ..Default::default() };
-    plane(set, (modes, force))(
-        (Coordinate::Start(0), (-0.14, 0.14)),
-        (Coordinate::Start(modes), (-0.57, 0.57)),
-        size,
-    )
+    let displacement = (Coordinate::Start(0), (-0.14, 0.14));
+    let velocity = (Coordinate::Start(modes), (-0.57, 0.57));
+    let parameters = ParameterSet { alpha: 1e-4, beta: 2.5e-3, omega: 8.0969, ..Default::default() };
+    plane(parameters, (modes, force), [displacement, velocity], size)
 }
-
-/// A side of a plane.
-type Side = (Coordinate, (f64, f64));
 
 fn plane(
     parameters: ParameterSet,
     (modes, force): (usize, ForceLaw),
-) -> impl Fn(Side, Side, usize) -> MotionPlane {
-    move |x, y, size| MotionPlane {
-        scenario: Scenario {
-            parameters,
-            model: ModelChoice { modes, force, ..Default::default() },
-            ..Default::default()
-        },
-        x,
-        y,
-        size: (size, size),
-    }
+    [x, y]: [(Coordinate, (f64, f64)); 2],
+    size: usize,
+) -> MotionPlane {
+    let model = ModelChoice { modes, force, ..Default::default() };
+    let scenario = Scenario { parameters, model, ..Default::default() };
+    MotionPlane { scenario, x, y, size: (size, size) }
 }
 
 /// Follows the start of every cell, column by column.

@@ -70,7 +70,7 @@ impl Studies {
         self.turn::<AtLevel>(on);
     }
 
-    /// Goes on with what is computed over the level, which was stopped with other runs than these.
+    /// Once the newest runs are not stopped, what is computed over the level, which was stopped with those before, goes on.
     pub(in crate::app) fn shake_over_levels(&mut self) {
         if self.lanes.study::<Table<ShakenRun>>().is_some_and(|runs| !runs.is_stopped()) {
             self.turn::<AtLevel>(true);

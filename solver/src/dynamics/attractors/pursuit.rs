@@ -38,8 +38,8 @@ const REGULAR: f64 = 0.3;
 const DIFFUSING: f64 = 0.7;
 /// Largest difference of the rotation numbers of two halves (turns a period).
 const SAME_ROTATION: f64 = 1e-6;
-/// Distance from an orbit, relative to that at the last look, below which a run comes nearer to it.
-const NEARER: f64 = 0.9;
+/// Distance from an orbit, relative to that at the look before, below which a run is on its way there.
+const APPROACHED: f64 = 0.9;
 /// Distance from a ratio of whole numbers below which a rotation is locked to it, and how many such are looked through.
 const LOCKED: f64 = 1e-7;
 const MOST_LOCKED: usize = 4;
@@ -74,7 +74,7 @@ pub(super) struct Pursuit {
     failed: Vec<(usize, usize)>,
     /// Periods of which a stable orbit was found that the run was not near: its index, and the distance from it then.
     far: Vec<(usize, usize, f64)>,
-    /// Distance from each known orbit when last looked at, infinite from unstable ones.
+    /// Distance from each known orbit at the look before, infinite from unstable ones.
     distances: Vec<f64>,
 }
 
@@ -269,17 +269,6 @@ impl Look<'_> {
         near.iter().find(reached).or_else(|| near.first()).copied()
     }
 
-    /// Notes the distances from the known stable orbits and says whether one of them is smaller than when last looked at.
-    fn nears_a_stable_orbit(&mut self) -> bool {
-        let distance = |known: &Neighbourhood| {
-            if known.orbit.stable() { known.distance_lately(&self.run.strobe) } else { f64::INFINITY }
-        };
-        let now: Vec<f64> = self.repertoire.known.iter().map(distance).collect();
-        let nears = now.iter().zip(&self.run.distances).any(|(now, before)| *now < NEARER * before);
-        self.run.distances = now;
-        nears
-    }
-
     /// The same, of orbits newly looked for behind the last states.
     fn near_found(&mut self) -> Option<(usize, Relation)> {
         for found in self.repertoire.find_guessed() {
@@ -292,8 +281,9 @@ impl Look<'_> {
         let mut candidates = Vec::new();
         let recurring = self.run.strobe.recurrence(&self.repertoire.system).and_then(|found| found.period);
         candidates.extend(recurring);
-        // A run that winds towards a known orbit returns close to itself after as many periods as a turn takes.
-        if !self.nears_a_stable_orbit() {
+        // A run that winds towards a known orbit returns close to itself after as many periods as a turn takes. Should it end on
+        // a longer orbit about that one, it stops coming nearer, and its returns are looked at then.
+        if !self.approaches_a_stable_orbit() {
             candidates.extend(self.run.strobe.closest_return());
         }
         if self.run.looks.is_power_of_two() {
@@ -336,6 +326,17 @@ impl Look<'_> {
             }
         }
         best
+    }
+
+    /// Whether the run has come nearer to one of the known stable orbits since it was last asked; notes how near.
+    fn approaches_a_stable_orbit(&mut self) -> bool {
+        let distance = |known: &Neighbourhood| {
+            if known.orbit.stable() { known.distance_lately(&self.run.strobe) } else { f64::INFINITY }
+        };
+        let now: Vec<f64> = self.repertoire.known.iter().map(distance).collect();
+        let approaches = now.iter().zip(&self.run.distances).any(|(now, before)| *now < APPROACHED * before);
+        self.run.distances = now;
+        approaches
     }
 
     /// Notes how far the run is from a stable orbit that it is not near.

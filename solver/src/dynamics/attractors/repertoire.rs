@@ -1,10 +1,8 @@
 //! The periodic motions of a system that starts have led to so far, and the search for further ones.
 
-use std::sync::Arc;
-
 use super::neighbourhood::Neighbourhood;
 use super::signature::Signature;
-use crate::dynamics::integration::rung::Rung;
+use crate::dynamics::integration::{Collocation, IntegrationError, Settings};
 use crate::dynamics::orbits::newton::Convergence;
 use crate::dynamics::orbits::{Orbit, OrbitSolver, PeriodMap};
 use crate::model::{ParameterSet, ReducedSystem};
@@ -57,9 +55,16 @@ impl Repertoire {
         same_set && model(&self.system) == model(system)
     }
 
-    /// What belongs to the longest step of the integrator.
-    pub(super) fn rung(&mut self) -> &Arc<Rung> {
-        self.solver.map().rung()
+    /// An integrator of the system from `initial` (length 2N + 1), whose steps are those of the map.
+    ///
+    /// # Errors
+    /// As [`Collocation::new`].
+    pub(super) fn integrator(
+        &mut self,
+        initial: &[f64],
+        settings: Settings,
+    ) -> Result<Collocation, IntegrationError> {
+        Collocation::with_rung(&self.system, initial, self.solver.map().rung(), settings)
     }
 
     /// The stable periodic motions met so far.

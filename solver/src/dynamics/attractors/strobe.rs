@@ -106,7 +106,7 @@ impl Strobe {
                 .map(move |j| self.distance(self.before_last(j), self.before_last(j + period)))
         };
         let amplitude = self.amplitude(RECENT);
-        // Most periods are ruled out by their first few pairs.
+        // Most periods are ruled out by their first few pairs. At rest even a limit of zero is kept.
         let mut closest = None;
         for period in 1..=LONGEST_RETURN {
             let limit = closest.map_or((RETURNED * amplitude).next_up(), |(_, defect)| defect);
@@ -169,6 +169,7 @@ mod tests {
     #[test]
     fn the_closest_return_is_the_shortest_of_the_closest() {
         assert_eq!(strobe(200, |_| 0.7).closest_return(), Some(1));
+        assert_eq!(strobe(200, |_| 0.0).closest_return(), Some(1));
         assert_eq!(strobe(200, |k| (k % 3) as f64).closest_return(), Some(3));
         assert_eq!(strobe(200, |k| (k % 37) as f64).closest_return(), Some(37));
         // Nearly repeating is enough only where states come closer.

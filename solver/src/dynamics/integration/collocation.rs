@@ -193,6 +193,7 @@ impl Collocation {
         settings: Settings,
     ) -> Result<Self, IntegrationError> {
         let dimension = system.dimension();
+        check_state(initial, dimension)?;
         let part = longest.propagator.part().clone();
         let mut integrator = Self {
             extended: vec![0.0; part.extended_dimension()],
@@ -209,25 +210,13 @@ impl Collocation {
             tip: [0.0; NODES],
             steps: 0,
         };
-        integrator.restart(initial, settings)?;
+        integrator.extended[..dimension].copy_from_slice(initial);
+        integrator.excite();
         Ok(integrator)
     }
 
-    /// Begins anew at time 0 in the state `initial` (length 2N + 1): as a new integrator, but its tables are there already.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn restart(&mut self, initial: &[f64], settings: Settings) -> Result<(), IntegrationError> {
-        let dimension = self.part.modes * 2 + 1;
-        check_state(initial, dimension)?;
-        self.grid.restart();
-        self.extended[..dimension].copy_from_slice(initial);
-        self.excite();
-        (self.settings, self.steps) = (settings, 0);
-        Ok(())
-    }
-
-    /// Begins anew as [`Self::restart`] does, with the excitation's `phase` (radians) at time 0 and steps as long as the last.
+    /// Begins anew at time 0 in the state `initial` (length 2N + 1), with the excitation's `phase` (radians) there and steps as
+    /// long as the last.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -527,19 +516,25 @@ mod tests {
     use crate::model::{ForceLaw, ParameterSet, Parameters};
 
     #[test]
-    fn a_start_with_the_tables_of_another_one_goes_the_same_way() -> Result<(), Box<dyn std::error::Error>> {
+    fn integrators_that_share_their_tables_go_the_same_way() -> Result<(), Box<dyn std::error::Error>> {
         let set = ParameterSet { alpha: 1e-4, beta: 0.01, omega: 8.0969, ..Default::default() };
         let system = ReducedSystem::new(Parameters::new(set)?, 2, ForceLaw::Exact)?;
         let (initial, settings) = ([0.01, 0.0, 0.1, 0.0, 0.0], Settings { tolerance: 1e-8 });
-        let mut fresh = Collocation::new(&system, &initial, settings)?;
-        let mut used = Collocation::new(&system, &[0.0; 5], Settings::default())?;
-        used.advance(40.0, usize::MAX, &mut |_| ())?;
-        used.restart(&initial, settings)?;
-        for run in [&mut fresh, &mut used] {
+        let mut alone = Collocation::new(&system, &initial, settings)?;
+        let mut first = Collocation::new(&system, &[0.0; 5], Settings::default())?;
+        first.advance(40.0, usize::MAX, &mut |_| ())?;
+        let mut second = Collocation::with_rung(&system, &initial, &first.longest, settings)?;
+        for run in [&mut alone, &mut second] {
             run.advance(40.0, usize::MAX, &mut |_| ())?;
         }
-        assert_eq!((used.state(), used.time(), used.steps()), (fresh.state(), fresh.time(), fresh.steps()));
-        assert!(used.restart(&[0.0; 4], settings).is_err());
+        assert_eq!(
+            (second.state(), second.time(), second.steps()),
+            (alone.state(), alone.time(), alone.steps())
+        );
+        // The halved steps of one are the other's, too.
+        let half = |run: &Collocation| Arc::as_ptr(&run.rung_of(1));
+        assert!(half(&first) == half(&second) && half(&first) != half(&alone));
+        assert!(Collocation::with_rung(&system, &[0.0; 4], &first.longest, settings).is_err());
         Ok(())
     }
 }

@@ -56,12 +56,6 @@ impl Grid {
         Self { period, phase, coarsest, level: 0, periods: 0, index: 0, overtime: 0.0, known: Vec::new() }
     }
 
-    /// Goes back to time 0 and the longest step.
-    pub(super) fn restart(&mut self) {
-        (self.level, self.periods, self.index, self.overtime) = (0, 0, 0, 0.0);
-        self.known.iter_mut().flatten().for_each(|known| known.refused = None);
-    }
-
     /// Goes back to time 0 with another `phase` (radians) of the excitation there; steps are as long as the last.
     pub(super) fn begin_at(&mut self, phase: f64) {
         (self.phase, self.periods, self.index, self.overtime) = (phase, 0, 0, 0.0);
@@ -241,8 +235,6 @@ mod tests {
         grid.double();
         assert_eq!(grid.level(), 0);
         grid.halve();
-        grid.restart();
-        assert_eq!((grid.time(), grid.level(), grid.known[0][0].refused), (0.0, 0, None));
         Ok(())
     }
 }

@@ -5,8 +5,8 @@
 //! * [`outcome`] says how a run can end, [`rk4`] repeats the paper's own runs, step by step.
 //! * [`collocation`] is the integrator behind everything else: the linear beam and circuit are carried by their exact
 //!   [`propagator`], the magnet's rest force by Gauss-Legendre collocation. [`linear`] has the matrices, [`rule`] the
-//!   nodes, [`tables`] what a step of one length needs, in part as [`node_map`]s, and `rung` these with those of half the length; `grid` says where steps begin and end,
-//!   [`step`] is one of them as it is shown, `variation` its derivative.
+//!   nodes, [`tables`] what a step of one length needs, in part as [`node_map`]s, and `rung` has these for all who take such
+//!   steps; `grid` says where steps begin and end, [`step`] is one of them as it is shown, `variation` its derivative.
 //! * [`trajectory`] keeps the steps of a run for dense output; [`ongoing`] is a motion without an end, whose numbers may
 //!   change on the way; [`shaken`] is a motion under any shaking of the base.
 //! * [`rectified`] is a run with a rectifier in place of the load: two linear parts, and the instants at which one gives way

@@ -79,7 +79,7 @@ fn table(context: &Context<'_>, ui: &mut Ui) {
         [study.most(|lean| lean.power), study.most(|lean| lean.frequency), study.most(|lean| lean.threshold)];
     let table = Grid::new("sensitivities").num_columns(4).spacing([8.0, 3.0]).max_col_width(NAME_WIDTH);
     table.striped(true).show(ui, |ui| {
-        // A grid knows its widths a frame late: of a column that is filled row by row it is fixed.
+        // A grid knows the width of a new row a frame late; until then its numbers would stand over its name.
         ui.allocate_exact_size(egui::vec2(NAME_WIDTH, 0.0), egui::Sense::hover());
         for text in [tr("power"), tr("resonance"), tr("threshold")] {
             ui.label(RichText::new(text).small().color(tokens.text_weak));
