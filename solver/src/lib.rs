@@ -10,14 +10,16 @@
 //!   coupled-mode boundary that keeps the electrical circuit the published ones leave out.
 //! * [`dynamics`] integrates: the classical Runge-Kutta run of the paper, and an error-controlled exponential
 //!   collocation that does the same run a thousand times faster.
+//! * `fourier` is the transform that spectra, noise and rotation numbers share.
 //! * [`number`] writes numbers for people, here and in the page; a [`sentence`] is what they will read, before it is put into
 //!   a language.
 //!
-//! Dependencies point one way: dynamics, theory -> model. Everything is dimensionless unless a docstring names
+//! Dependencies point one way: dynamics, theory -> model -> fourier. Everything is dimensionless unless a docstring names
 //! a unit; time is counted in units of `sqrt(m_b L^3 / (E I))`, lengths in units of the beam's length, voltages in
 //! volts.
 
 pub mod dynamics;
+mod fourier;
 pub mod model;
 pub mod number;
 pub mod sentence;

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
-use super::spectrum::fourier_transform;
+use crate::fourier::{self, Direction};
 
 /// Frequencies, spread over a bin of the record's resolution, from which the largest is looked for.
 const PER_BIN: usize = 4;
@@ -92,7 +92,7 @@ fn strongest(weighted: &[f64], bin: f64) -> Option<f64> {
     let mut padded: Vec<Complex<f64>> = weighted.iter().map(|value| Complex::from(*value)).collect();
     padded.resize(length.next_power_of_two(), Complex::default());
     let spacing = 1.0 / padded.len() as f64;
-    fourier_transform(padded.len()).process(&mut padded);
+    fourier::transform(padded.len(), Direction::Forward).process(&mut padded);
     let half = padded.len() / 2;
     let largest = (1..=half).max_by(|a, b| padded[*a].norm_sqr().total_cmp(&padded[*b].norm_sqr()))?;
     Some(largest as f64 * spacing)

@@ -12,13 +12,11 @@
 //! Transactions on Instrumentation and Measurement 32, 1983, 350-355.
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
-use rustfft::algorithm::{BluesteinsAlgorithm, Radix4};
-use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftDirection};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
+
+use crate::fourier::{self, Complex, Direction};
 
 /// Fewest samples of a spectrum.
 pub const LEAST_SAMPLES: usize = 32;
@@ -41,16 +39,6 @@ pub enum SpectrumError {
     /// The sampling interval is not positive, or a sample is not finite.
     #[error("a spectrum needs finite samples at a positive interval")]
     NotFinite,
-}
-
-/// The transform of any length by those of powers of two. A planner would choose among all of the crate's algorithms,
-/// which weigh more in the page than the whole integrator; this takes three times as long, a few milliseconds.
-pub(super) fn fourier_transform(length: usize) -> Arc<dyn Fft<f64>> {
-    let of_power_of_two = |length| Arc::new(Radix4::new(length, FftDirection::Forward));
-    if length.is_power_of_two() {
-        return of_power_of_two(length);
-    }
-    Arc::new(BluesteinsAlgorithm::new(length, of_power_of_two((2 * length).next_power_of_two())))
 }
 
 /// A line of a spectrum.
@@ -100,7 +88,7 @@ impl Spectrum {
         let mean_square = weighted(&|x| (x - mean) * (x - mean));
         let windowed = samples.iter().enumerate().map(|(n, x)| Complex::from(window(n) * (x - mean)));
         let mut transformed: Vec<Complex<f64>> = windowed.collect();
-        fourier_transform(count).process(&mut transformed);
+        fourier::transform(count, Direction::Forward).process(&mut transformed);
         let scale = 2.0 / (0.5 * count as f64);
         let last = count / 2;
         // Zero and half the sampling frequency are their own mirror images, all others stand for two.

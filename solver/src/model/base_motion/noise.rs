@@ -10,10 +10,10 @@
 use std::f64::consts::TAU;
 
 use nanoserde::{DeBin, SerBin};
-use rustfft::{FftPlanner, num_complex::Complex};
 use serde::{Deserialize, Serialize};
 
 use super::{ACCELERATIONS, FREQUENCIES, Signal, samples};
+use crate::fourier::{self, Complex, Direction};
 use crate::model::ModelError;
 
 /// Samples of a period at the highest frequency: between them 2e-5 of its amplitude is lost, which is part of what this noise is.
@@ -102,7 +102,7 @@ impl Noise {
             let size = (-2.0 * density.at(frequency) * spacing * (1.0 - random.f64()).ln()).sqrt();
             spectrum[line] = Complex::from_polar(size, TAU * random.f64());
         }
-        FftPlanner::new().plan_fft_inverse(count).process(&mut spectrum);
+        fourier::transform(count, Direction::Inverse).process(&mut spectrum);
         let mut values: Vec<f64> = spectrum.iter().map(|value| value.re).collect();
         values.push(values[0]);
         Signal::new(self.duration / count as f64, values)
