@@ -7,7 +7,7 @@ SHELL := /usr/bin/env bash
 PORT ?= 8080
 DEV_DIST := target/page-dev-dist
 # Modules that a macro declares, which `cargo fmt` does not find by itself.
-PANELS := $(wildcard src/app/panels/*.rs)
+DECLARED := $(wildcard src/app/panels/*.rs src/questions/*.rs)
 # The project's own tools first: wasm-opt of the distribution is often too old.
 export PATH := $(CURDIR)/.tools/bin:$(CURDIR)/node_modules/.bin:$(PATH)
 # Trunk understands NO_COLOR=true only, not the usual 1.
@@ -52,7 +52,7 @@ test: ## everything that is checked: format, lints, documentation, tests, page, 
 check: lint native-test ## the part of `make test` that needs no browser
 
 lint: ## format, lints (native, without the page, in the page), documentation
-	cargo fmt --all --check -- $(PANELS)
+	cargo fmt --all --check -- $(DECLARED)
 	cargo clippy --workspace --locked --quiet --all-targets --features app -- -D warnings
 	cargo clippy --workspace --locked --quiet --all-targets -- -D warnings
 	CLIPPY_CONF_DIR=scripts/wasm cargo clippy --workspace --locked --quiet --lib --bins --features app --target wasm32-unknown-unknown -- -D warnings
@@ -69,7 +69,7 @@ bench: ## measurements (minutes)
 	cargo bench --workspace --locked
 
 fmt: ## format the sources
-	cargo fmt --all -- $(PANELS)
+	cargo fmt --all -- $(DECLARED)
 
 clean: ## remove what was built; the tools stay
 	rm -rf target dist

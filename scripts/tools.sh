@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Checks the tools for a target and installs what is missing: tools.sh dev|page|test
-# Cargo's tools go to .tools, npm's to node_modules; only rustup's target and Debian's browsers are shared.
+# Cargo's tools go to .tools, npm's to node_modules; rustup's target and Debian's browsers are shared. What was compiled once
+# is kept in the user's cache for the next checkout.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/versions.env
@@ -10,10 +11,19 @@ say() { printf '== %s\n' "$*"; }
 die() { printf 'error: %s\n' "$*" >&2; exit 1; }
 have() { command -v "$1" >/dev/null 2>&1; }
 
+KEPT="${XDG_CACHE_HOME:-$HOME/.cache}/harvester-lab"
+
+# cargo_tool COMMAND VERSION ARGUMENT...
 # The tools run for seconds: compiling them quickly matters more than how fast they are.
 cargo_tool() {
+  local command="$1" version="$2"
+  shift 2
+  mkdir -p .tools/bin
+  cp "$KEPT/$command-$version" ".tools/bin/$command" 2>/dev/null && [[ "$($command --version 2>/dev/null)" == *" $version" ]] && return
+  say "compiling $command $version into .tools (a few minutes, once)"
   CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
-    cargo install --root .tools --target-dir target/tools --no-default-features "$@"
+    cargo install --root .tools --target-dir target/tools --no-default-features --force --version "$version" "$@"
+  mkdir -p "$KEPT" && cp ".tools/bin/$command" "$KEPT/$command-$version"
 }
 
 rust() {
@@ -29,8 +39,7 @@ that target with the manager it came from (Debian: libstd-rust-dev-wasm32), or i
 
 trunk_() {
   [ "$(trunk --version 2>/dev/null)" = "trunk $TRUNK_VERSION" ] && return
-  say "compiling Trunk $TRUNK_VERSION into .tools (about 5 minutes on two cores, once)"
-  cargo_tool --locked trunk --version "$TRUNK_VERSION"
+  cargo_tool trunk "$TRUNK_VERSION" --locked trunk
 }
 
 bindgen() {
@@ -38,9 +47,8 @@ bindgen() {
   version="$(awk '/^name = "wasm-bindgen"$/ { getline; gsub(/"/, ""); print $3 }' Cargo.lock)"
   [ -n "$version" ] || die "Cargo.lock names no wasm-bindgen"
   [ "$(wasm-bindgen --version 2>/dev/null)" = "wasm-bindgen $version" ] && return
-  say "compiling wasm-bindgen $version into .tools (about 2 minutes on two cores, once)"
   # Not --locked: the lock file it was published with names a crate version that is gone.
-  cargo_tool wasm-bindgen-cli --version "$version"
+  cargo_tool wasm-bindgen "$version" wasm-bindgen-cli
 }
 
 wasm_opt() {

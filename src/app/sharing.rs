@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::App;
-use super::bench::recorded::Recorded;
+use super::bench::recorded::BaseRecording;
 use super::bench::shaking::recorded;
 use super::command::Command;
 use super::errand::Errand;
@@ -172,7 +172,7 @@ impl App {
                 self.notice = None;
                 self.replace(view, false);
                 if let Some(RecordingFile { name, time, acceleration }) = recording {
-                    self.bench.vibration.open(&name, Recorded::text(&time, &acceleration).into_bytes());
+                    self.bench.vibration.open(&name, BaseRecording::text(&time, &acceleration).into_bytes());
                 }
             }
             Err(reason) => self.tell_unopened(name, &reason),

@@ -6,8 +6,8 @@ use nanoserde::{DeBin, SerBin};
 use serde::{Deserialize, Serialize};
 
 use super::design::evolution::Evolution;
-use super::design::find::{Evaluation, FindQuestion, Objective, Variable, evaluate};
 use super::design::polish::Polish;
+use super::design::space::{DesignSpace, Evaluation, Objective, Variable, evaluate};
 use super::error::{RequestError, failed};
 use super::motions::Coordinate;
 use super::question::Question;
@@ -137,8 +137,8 @@ impl Question for Find {
         let variables = self.variables.iter().map(variable).collect::<Result<_, RequestError>>()?;
         let acceleration = held(self.hold, &scenario);
         let (objective, limits) = (self.objective, self.limits);
-        let question = FindQuestion { scenario, variables, objective, limits, acceleration };
-        let mut study = FindStudy::new(question, self.generations, self.seed)?;
+        let space = DesignSpace { scenario, variables, objective, limits, acceleration };
+        let mut study = FindStudy::new(space, self.generations, self.seed)?;
         complete_within(&mut study, budget);
         failed(study.failure())?;
         let missing = || RequestError::Study("no candidate was evaluated".to_owned());
@@ -166,7 +166,7 @@ impl Question for Find {
 #[derive(Debug, Clone, PartialEq, SerBin, DeBin)]
 pub struct Evaluate {
     /// What is searched.
-    pub question: FindQuestion,
+    pub space: DesignSpace,
     /// A value for each variable.
     pub values: Vec<f64>,
 }
@@ -176,7 +176,7 @@ impl Piece for Evaluate {
     type Found = Evaluation;
 
     fn carry_out(&self) -> Result<Evaluation, Failure> {
-        Ok(evaluate(&self.question, &self.values)?)
+        Ok(evaluate(&self.space, &self.values)?)
     }
 }
 
@@ -218,7 +218,7 @@ enum Phase {
 /// A search under way. It is cancelled by dropping it.
 #[derive(Debug, Clone)]
 pub struct FindStudy {
-    question: FindQuestion,
+    space: DesignSpace,
     generations: usize,
     seed: u64,
     phase: Phase,
@@ -243,14 +243,14 @@ impl FindStudy {
     ///
     /// # Errors
     /// [`ModelError`] naming what is out of range.
-    pub fn new(question: FindQuestion, generations: usize, seed: u64) -> Result<Self, ModelError> {
-        question.validate()?;
+    pub fn new(space: DesignSpace, generations: usize, seed: u64) -> Result<Self, ModelError> {
+        space.validate()?;
         counted("generations", generations, GENERATIONS)?;
-        let dimension = question.variables.len();
-        let evolution = Evolution::new(dimension, PER_VARIABLE * dimension, seed, own(&question));
+        let dimension = space.variables.len();
+        let evolution = Evolution::new(dimension, PER_VARIABLE * dimension, seed, own(&space));
         let trials = evolution.trials().to_vec();
         Ok(Self {
-            question,
+            space,
             generations,
             seed,
             phase: Phase::Evolution(evolution),
@@ -273,8 +273,8 @@ impl FindStudy {
     }
 
     /// What is searched.
-    pub fn question(&self) -> &FindQuestion {
-        &self.question
+    pub fn question(&self) -> &DesignSpace {
+        &self.space
     }
 
     /// The best candidate of the generations done. Its violation is 0 when it keeps the limits.
@@ -307,11 +307,11 @@ impl FindStudy {
     /// # Errors
     /// [`ModelError`] when it is no device.
     pub fn scenario(&self, candidate: &Candidate) -> Result<Scenario, ModelError> {
-        self.question.candidate(&candidate.values)
+        self.space.candidate(&candidate.values)
     }
 
     fn values(&self, trial: &[f64]) -> Vec<f64> {
-        self.question.variables.iter().zip(trial).map(|(variable, share)| variable.at(*share)).collect()
+        self.space.variables.iter().zip(trial).map(|(variable, share)| variable.at(*share)).collect()
     }
 
     /// The values of a trial.
@@ -321,7 +321,7 @@ impl FindStudy {
 
     /// Takes a whole set of trials over.
     fn advance(&mut self) {
-        let objective = self.question.objective;
+        let objective = self.space.objective;
         let evaluations: Vec<Evaluation> = self.evaluations.iter().flatten().copied().collect();
         let ranks: Vec<_> = evaluations.iter().map(|evaluation| evaluation.rank(&objective)).collect();
         if matches!(self.phase, Phase::Neighbours) {
@@ -364,7 +364,7 @@ impl FindStudy {
 
     /// Keeps the best of the candidates.
     fn take_over(&mut self, evaluations: &[Evaluation]) {
-        let objective = self.question.objective;
+        let objective = self.space.objective;
         for (trial, evaluation) in self.trials.iter().zip(evaluations) {
             let candidate = Candidate { values: self.values(trial), evaluation: *evaluation };
             let better = self
@@ -383,7 +383,7 @@ impl FindStudy {
     fn neighbours(&self) -> Vec<Vec<f64>> {
         let Some(best) = &self.best else { return Vec::new() };
         let mut neighbours = Vec::new();
-        for (i, variable) in self.question.variables.iter().enumerate() {
+        for (i, variable) in self.space.variables.iter().enumerate() {
             for sign in [-1.0, 1.0] {
                 let mut values = best.values.clone();
                 values[i] = neighbour(variable, values[i], sign);
@@ -395,7 +395,7 @@ impl FindStudy {
 
     fn compare(&mut self, evaluations: &[Evaluation]) {
         let Some(best) = &self.best else { return };
-        let smaller_is_better = matches!(self.question.objective, Objective::Threshold(_));
+        let smaller_is_better = matches!(self.space.objective, Objective::Threshold(_));
         let loss = |there: &Evaluation| match (best.evaluation.value, there.value) {
             (Some(best), Some(there)) if smaller_is_better => 1.0 - best / there,
             (Some(best), Some(there)) => 1.0 - there / best,
@@ -419,9 +419,9 @@ fn neighbour(variable: &Variable, value: f64, sign: f64) -> f64 {
 }
 
 /// The scenario's own device as shares of the ranges; `None` where it lies outside.
-fn own(question: &FindQuestion) -> Option<Vec<f64>> {
+fn own(space: &DesignSpace) -> Option<Vec<f64>> {
     let share = |variable: &Variable| {
-        let value = variable.coordinate.value(&question.scenario)?;
+        let value = variable.coordinate.value(&space.scenario)?;
         let (low, high) = variable.range;
         let share = if variable.logarithmic {
             (value / low).ln() / (high / low).ln()
@@ -430,7 +430,7 @@ fn own(question: &FindQuestion) -> Option<Vec<f64>> {
         };
         (0.0..=1.0).contains(&share).then_some(share)
     };
-    question.variables.iter().map(share).collect()
+    space.variables.iter().map(share).collect()
 }
 
 impl Study for FindStudy {
@@ -442,24 +442,21 @@ impl Study for FindStudy {
         let values = self.values_of(trial);
         let (set, index) = (self.generation, self.handed);
         self.handed += 1;
-        Some(Order::new(
-            Evaluate { question: self.question.clone(), values },
-            move |study: &mut Self, found| {
-                // One of a set before the present one comes too late.
-                if study.finished() || study.generation != set {
-                    return;
-                }
-                match found {
-                    Ok(evaluation) => {
-                        study.evaluations[index] = Some(evaluation);
-                        if study.evaluations.iter().all(Option::is_some) {
-                            study.advance();
-                        }
+        Some(Order::new(Evaluate { space: self.space.clone(), values }, move |study: &mut Self, found| {
+            // One of a set before the present one comes too late.
+            if study.finished() || study.generation != set {
+                return;
+            }
+            match found {
+                Ok(evaluation) => {
+                    study.evaluations[index] = Some(evaluation);
+                    if study.evaluations.iter().all(Option::is_some) {
+                        study.advance();
                     }
-                    Err(message) => study.failure = Some(message),
                 }
-            },
-        ))
+                Err(message) => study.failure = Some(message),
+            }
+        }))
     }
 
     fn progress(&self) -> f64 {

@@ -7,7 +7,7 @@ use super::design::Plant;
 use super::design::harvest::lasting;
 use super::error::RequestError;
 use super::question::Question;
-use crate::model::Limits;
+pub use crate::model::Limits;
 use crate::model::limits::{Assessment, Check, Demand, sag};
 use crate::scenario::Scenario;
 use crate::scheduler::Budget;

@@ -26,29 +26,43 @@ use crate::scheduler::lane::Traffic;
 use crate::scheduler::piece::Hand;
 use crate::scheduler::{Failure, Lane, Lanes, Single, Study, Table, Tell};
 
-/// What requests may ask: the native command, JavaScript, and programs that the page writes.
-pub const TASKS: &[Task] = &[
-    Task::of::<super::modes::Modes>(),
-    Task::of::<super::boundary::Boundary>(),
-    Task::of::<super::simulate::Simulate>(),
-    Task::of::<super::orbit::Orbit>(),
-    Task::of::<super::chart::Chart>(),
-    Task::of::<super::sweep::Sweep>(),
-    Task::of::<super::continuation::Continue>(),
-    Task::of::<super::curves::Curves>(),
-    Task::of::<super::verdict::Verdict>(),
-    Task::of::<super::basin::Basin>(),
-    Task::of::<super::harvest::Harvest>(),
-    Task::of::<super::load::Load>(),
-    Task::of::<super::materials::Materials>(),
-    Task::of::<crate::model::Limits>(),
-    Task::of::<super::trust::Trust>(),
-    Task::of::<super::find::Find>(),
-    Task::of::<super::map::Map>(),
-    Task::of::<super::shake::Shake>(),
-    Task::of::<super::tolerances::Tolerances>(),
-    Task::of::<super::fit::Fit>(),
-];
+/// Gives all tasks to a macro: the question of each, and the file it is in. A line here and that file are a task. Help and
+/// README tell them in this order.
+macro_rules! tasks {
+    ($to:ident) => {
+        $to! {
+            Modes modes
+            Boundary boundary
+            Simulate simulate
+            Orbit orbit
+            Chart chart
+            Sweep sweep
+            Continue continuation
+            Curves curves
+            Verdict verdict
+            Basin basin
+            Harvest harvest
+            Load load
+            Materials materials
+            Limits limits
+            Trust trust
+            Find find
+            Map map
+            Shake shake
+            Tolerances tolerances
+            Fit fit
+        }
+    };
+}
+pub(super) use tasks;
+
+macro_rules! questions {
+    ($($name:ident $file:ident)*) => {
+        /// What requests may ask: the native command, JavaScript, and programs that the page writes.
+        pub const TASKS: &[Task] = &[$(Task::of::<super::$file::$name>()),*];
+    };
+}
+tasks!(questions);
 
 /// What workers can do.
 pub const HANDS: &[Hand] = &[

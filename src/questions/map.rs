@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::checks::count;
-use super::design::find::{Evaluation, FindQuestion, Objective, Variable};
+use super::design::space::{DesignSpace, Evaluation, Objective, Variable};
 use super::error::{RequestError, failed};
 use super::find::{Evaluate, held};
 use super::motions::Coordinate;
@@ -116,8 +116,8 @@ impl Question for Map {
         let variables = vec![self.x.variable("x", modes)?, self.y.variable("y", modes)?];
         let acceleration = held(self.hold, &scenario);
         let (objective, limits) = (self.objective, self.limits);
-        let question = FindQuestion { scenario, variables, objective, limits, acceleration };
-        let mut map = DesignMap::new(question, (columns, rows))?;
+        let space = DesignSpace { scenario, variables, objective, limits, acceleration };
+        let mut map = DesignMap::new(space, (columns, rows))?;
         complete_within(&mut map, budget);
         failed(map.failure())?;
         let table = |part: &dyn Fn(&Evaluation) -> Option<f64>| {
@@ -140,7 +140,7 @@ impl Question for Map {
 /// A map being computed, first where limits begin to be violated or a motion changes its class.
 #[derive(Debug, Clone)]
 pub struct DesignMap {
-    question: FindQuestion,
+    space: DesignSpace,
     size: (usize, usize),
     tiles: Mosaic<Evaluation>,
     failure: Option<Failure>,
@@ -148,17 +148,17 @@ pub struct DesignMap {
 }
 
 impl DesignMap {
-    /// An empty map: the first of the question's two variables goes from column to column, the second from row to row.
+    /// An empty map: the first of the space's two variables goes from column to column, the second from row to row.
     ///
     /// # Errors
     /// [`ModelError`] naming what is out of range, or when there are not two variables.
-    pub fn new(question: FindQuestion, size: (usize, usize)) -> Result<Self, ModelError> {
-        question.validate()?;
-        counted("variables", question.variables.len(), (2, 2))?;
+    pub fn new(space: DesignSpace, size: (usize, usize)) -> Result<Self, ModelError> {
+        space.validate()?;
+        counted("variables", space.variables.len(), (2, 2))?;
         counted("columns", size.0, SIZES)?;
         counted("rows", size.1, SIZES)?;
         let tiles = Mosaic::new(size.0, size.1);
-        Ok(Self { question, size, tiles, failure: None, version: 0 })
+        Ok(Self { space, size, tiles, failure: None, version: 0 })
     }
 
     /// Columns and rows.
@@ -169,7 +169,7 @@ impl DesignMap {
     /// The two variables' values at a cell.
     pub fn values(&self, (column, row): Place) -> [f64; 2] {
         let share = |index: usize, count: usize| between((0.0, 1.0), index, count);
-        let [x, y] = [0, 1].map(|axis| self.question.variables[axis]);
+        let [x, y] = [0, 1].map(|axis| self.space.variables[axis]);
         [x.at(share(column, self.size.0)), y.at(share(row, self.size.1))]
     }
 
@@ -187,7 +187,7 @@ impl DesignMap {
     pub fn best(&self) -> Option<(Place, Evaluation)> {
         let (columns, rows) = self.size;
         let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
-        let rank = |evaluation: &Evaluation| evaluation.rank(&self.question.objective).1;
+        let rank = |evaluation: &Evaluation| evaluation.rank(&self.space.objective).1;
         places
             .filter_map(|place| self.cell(place).map(|evaluation| (place, *evaluation)))
             .filter(|(_, evaluation)| evaluation.violation == 0.0 && evaluation.value.is_some())
@@ -216,10 +216,10 @@ fn differ(a: &Evaluation, b: &Evaluation) -> bool {
 }
 
 impl Asked for DesignMap {
-    type Question = FindQuestion;
+    type Question = DesignSpace;
 
     fn asked(&self) -> &Self::Question {
-        &self.question
+        &self.space
     }
 }
 
@@ -229,7 +229,7 @@ impl Study for DesignMap {
             return None;
         }
         let place = *self.tiles.hand_out(1, differ).first()?;
-        let piece = Evaluate { question: self.question.clone(), values: self.values(place).to_vec() };
+        let piece = Evaluate { space: self.space.clone(), values: self.values(place).to_vec() };
         Some(Order::new(piece, move |map: &mut Self, found| {
             map.version += 1;
             match found {

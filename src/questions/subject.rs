@@ -5,6 +5,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use super::error::{RequestError, read};
+use crate::model::base_motion::ACCELERATIONS;
 use crate::model::{Device, ElectricalScaling, Layers, ModelError, ParameterSet};
 use crate::scenario::{ModelChoice, Scenario};
 use harvester_solver::number::six_digits;
@@ -33,8 +34,6 @@ pub(super) const ACCELERATION_UNIT: &str = "peak g of 9.80665 m/s^2";
 const SAME: f64 = 1e-6;
 /// Quality factors that a mode can be given.
 const QUALITY: (f64, f64) = (0.5, 1e9);
-/// Accelerations that can be asked for (g).
-const ACCELERATIONS: (f64, f64) = (0.0, 1e6);
 
 /// How the device is looked at.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

@@ -4,7 +4,7 @@ use nanoserde::{DeBin, SerBin};
 use serde::{Deserialize, Serialize};
 
 use super::checks::class;
-use super::design::find::{Evaluation, FindQuestion, Objective, Variable};
+use super::design::space::{DesignSpace, Evaluation, Objective, Variable};
 use super::design::tolerance::{
     Distribution, Lean, coordinates, deviates, lean, resonance_frequency, threshold,
 };
@@ -165,7 +165,7 @@ impl Question for Tolerances {
 #[derive(Debug, Clone, PartialEq, SerBin, DeBin)]
 pub struct Meant {
     /// The device, with its limits.
-    pub question: FindQuestion,
+    pub space: DesignSpace,
     /// Whose threshold.
     pub resonance: Resonance,
 }
@@ -175,9 +175,9 @@ impl Piece for Meant {
     type Found = Nominal;
 
     fn carry_out(&self) -> Result<Nominal, Failure> {
-        let scenario = &self.question.scenario;
-        let none = FindQuestion { variables: Vec::new(), ..self.question.clone() };
-        let found = Evaluate { question: none, values: Vec::new() }.carry_out()?;
+        let scenario = &self.space.scenario;
+        let none = DesignSpace { variables: Vec::new(), ..self.space.clone() };
+        let found = Evaluate { space: none, values: Vec::new() }.carry_out()?;
         Ok(Nominal {
             motion: found.motion.map_or_else(|| "none".to_owned(), class),
             power: found.value,
@@ -215,7 +215,7 @@ pub struct ToleranceStudy {
     dimensions: Vec<(Coordinate, f64)>,
     /// Standard deviations over the values, one a dimension.
     deviations: Vec<f64>,
-    question: FindQuestion,
+    space: DesignSpace,
     nominal_handed: bool,
     nominal: Option<Nominal>,
     leans_handed: usize,
@@ -258,7 +258,7 @@ impl ToleranceStudy {
             range: (*value, *value),
             logarithmic: false,
         };
-        let question = FindQuestion {
+        let space = DesignSpace {
             scenario: scenario.clone(),
             variables: dimensions.iter().map(variable).collect(),
             objective: Objective::Power,
@@ -275,7 +275,7 @@ impl ToleranceStudy {
             asked: (scenario, asked),
             dimensions,
             deviations,
-            question,
+            space,
             failure: None,
         })
     }
@@ -361,7 +361,7 @@ impl Study for ToleranceStudy {
         }
         let (scenario, resonance) = (self.asked.0.clone(), self.asked.1.resonance);
         if !std::mem::replace(&mut self.nominal_handed, true) {
-            let piece = Meant { question: self.question.clone(), resonance };
+            let piece = Meant { space: self.space.clone(), resonance };
             return Some(Order::new(piece, |study: &mut Self, found| {
                 study.take(found, |study, nominal| study.nominal = Some(nominal));
             }));
@@ -386,7 +386,7 @@ impl Study for ToleranceStudy {
         }
         let index = self.samples_handed;
         self.samples_handed += 1;
-        let piece = Evaluate { question: self.question.clone(), values: self.values(index) };
+        let piece = Evaluate { space: self.space.clone(), values: self.values(index) };
         Some(Order::new(piece, move |study: &mut Self, found| {
             study.take(found, |study, sample| study.samples[index] = Some(sample));
         }))

@@ -14,7 +14,7 @@ use harvester_lab::questions::answers::Solve;
 use harvester_lab::questions::continuation::{Continue, Response};
 use harvester_lab::questions::curves::{Crossings, Trace};
 use harvester_lab::questions::design::change::Way;
-use harvester_lab::questions::design::find::{FindQuestion, Objective, Variable};
+use harvester_lab::questions::design::space::{DesignSpace, Objective, Variable};
 use harvester_lab::questions::design::trust::Quantity;
 use harvester_lab::questions::find::Evaluate;
 use harvester_lab::questions::fit::Voltages;
@@ -77,7 +77,7 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
     let (parameter, shaking) = (Parameter::Omega, Shaking::Acceleration);
     let resistances = vec![1e6, 1e7];
     let coordinate = Coordinate::Parameter(Parameter::Kappa);
-    let question = FindQuestion {
+    let space = DesignSpace {
         scenario: scenario.clone(),
         variables: vec![Variable { coordinate, range: (1e-6, 1e-3), logarithmic: true }],
         objective: Objective::Power,
@@ -159,27 +159,27 @@ fn work_and_what_it_finds_arrive_as_they_were_sent() {
         sent(&Rectified { scenario: scenario.clone(), voltage: 2.0, drop: 0.3 }),
         sent(&BestVoltage { scenario: scenario.clone(), between: (1.0, 1.5), drop: 0.0 }),
         sent(&Entry { scenario, modes: 2, law: ForceLaw::Exact, quantity: Quantity::Power }),
-        sent(&Meant { question: question.clone(), resonance: Resonance::First }),
+        sent(&Meant { space: space.clone(), resonance: Resonance::First }),
         sent(&Leaning {
-            scenario: question.scenario.clone(),
+            scenario: space.scenario.clone(),
             dimension: Coordinate::Dimension(Dimension::BeamLength),
             resonance: Resonance::First,
         }),
         sent(&Voltages {
-            scenario: question.scenario.clone(),
+            scenario: space.scenario.clone(),
             shaking,
             dimensions: vec![(Dimension::TipMass, 6e-4)],
             frequencies: vec![2.8, 2.9],
         }),
         sent(&ShakenRun {
-            scenario: question.scenario.clone(),
+            scenario: space.scenario.clone(),
             excitation: noise.clone(),
             realisation: 1,
             magnets: false,
             points: 50,
         }),
-        sent(&AtLevel { scenario: question.scenario.clone(), excitation: noise, realisations: 1 }),
-        sent(&Evaluate { question, values: vec![1e-5] }),
+        sent(&AtLevel { scenario: space.scenario.clone(), excitation: noise, realisations: 1 }),
+        sent(&Evaluate { space, values: vec![1e-5] }),
     ];
     let mut known: Vec<&str> = HANDS.iter().map(|hand| hand.name).collect();
     names.sort_unstable();

@@ -86,71 +86,56 @@ pub struct Layers {
     pub epoxy: Option<Sheet>,
 }
 
-/// One number of a section, by which devices scatter or a search goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, SerBin, DeBin)]
-#[serde(rename_all = "snake_case")]
-pub enum LayerNumber {
+/// Each number's place in a request's device, and lowest and highest value in SI units.
+macro_rules! layer_numbers {
+    ($($(#[doc = $doc:literal])+ $name:ident $field:literal in $range:ident,)*) => {
+        /// One number of a section, by which devices scatter or a search goes.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, SerBin, DeBin)]
+        #[serde(rename_all = "snake_case")]
+        pub enum LayerNumber {
+            $($(#[doc = $doc])+ $name,)*
+        }
+
+        impl LayerNumber {
+            /// All of them, in the order of a request.
+            pub const ALL: &[Self] = &[$(Self::$name),*];
+
+            const fn row(self) -> (&'static str, (f64, f64)) {
+                match self {
+                    $(Self::$name => ($field, $range),)*
+                }
+            }
+        }
+    };
+}
+layer_numbers! {
     /// Width of the beam.
-    Width,
+    Width "layers.width" in WIDTH,
     /// Thickness of the substrate.
-    SubstrateThickness,
+    SubstrateThickness "layers.substrate.thickness" in THICKNESS_OR_NONE,
     /// Its modulus.
-    SubstrateModulus,
+    SubstrateModulus "layers.substrate.youngs_modulus" in MODULUS,
     /// Its density.
-    SubstrateDensity,
+    SubstrateDensity "layers.substrate.density" in DENSITY,
     /// Thickness of each plate of ceramic.
-    CeramicThickness,
+    CeramicThickness "layers.ceramic.thickness" in THICKNESS,
     /// Its modulus.
-    CeramicModulus,
+    CeramicModulus "layers.ceramic.youngs_modulus" in MODULUS,
     /// Its density.
-    CeramicDensity,
+    CeramicDensity "layers.ceramic.density" in DENSITY,
     /// Its piezoelectric constant.
-    D31,
+    D31 "layers.ceramic.d31" in D31,
     /// Its permittivity.
-    Permittivity,
+    Permittivity "layers.ceramic.permittivity" in PERMITTIVITY,
     /// Thickness of each layer of glue.
-    EpoxyThickness,
+    EpoxyThickness "layers.epoxy.thickness" in THICKNESS_OR_NONE,
     /// Its modulus.
-    EpoxyModulus,
+    EpoxyModulus "layers.epoxy.youngs_modulus" in MODULUS,
     /// Its density.
-    EpoxyDensity,
+    EpoxyDensity "layers.epoxy.density" in DENSITY,
 }
 
 impl LayerNumber {
-    /// All of them, in the order of a request.
-    pub const ALL: [Self; 12] = [
-        Self::Width,
-        Self::SubstrateThickness,
-        Self::SubstrateModulus,
-        Self::SubstrateDensity,
-        Self::CeramicThickness,
-        Self::CeramicModulus,
-        Self::CeramicDensity,
-        Self::D31,
-        Self::Permittivity,
-        Self::EpoxyThickness,
-        Self::EpoxyModulus,
-        Self::EpoxyDensity,
-    ];
-
-    /// Its place in a request's device, and lowest and highest value in SI units.
-    const fn row(self) -> (&'static str, (f64, f64)) {
-        match self {
-            Self::Width => ("layers.width", WIDTH),
-            Self::SubstrateThickness => ("layers.substrate.thickness", THICKNESS_OR_NONE),
-            Self::SubstrateModulus => ("layers.substrate.youngs_modulus", MODULUS),
-            Self::SubstrateDensity => ("layers.substrate.density", DENSITY),
-            Self::CeramicThickness => ("layers.ceramic.thickness", THICKNESS),
-            Self::CeramicModulus => ("layers.ceramic.youngs_modulus", MODULUS),
-            Self::CeramicDensity => ("layers.ceramic.density", DENSITY),
-            Self::D31 => ("layers.ceramic.d31", D31),
-            Self::Permittivity => ("layers.ceramic.permittivity", PERMITTIVITY),
-            Self::EpoxyThickness => ("layers.epoxy.thickness", THICKNESS_OR_NONE),
-            Self::EpoxyModulus => ("layers.epoxy.youngs_modulus", MODULUS),
-            Self::EpoxyDensity => ("layers.epoxy.density", DENSITY),
-        }
-    }
-
     /// Its place in a request's device.
     pub const fn field(self) -> &'static str {
         self.row().0
@@ -163,7 +148,7 @@ impl LayerNumber {
 
     /// The one at this place of a request's device.
     pub fn named(field: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|number| number.field() == field)
+        Self::ALL.iter().copied().find(|number| number.field() == field)
     }
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use egui_plot::PlotPoint;
 
 use super::questions::shaking;
-use super::recorded::Recorded;
+use super::recorded::BaseRecording;
 use crate::app::clock::milliseconds;
 use crate::app::session::Shown;
 use crate::app::text::say;
@@ -89,7 +89,7 @@ pub(in crate::app) struct File {
     /// Rows left out, out of the instrument's range.
     pub over_range: usize,
     /// The accelerations, where they are what is wanted.
-    pub recorded: Option<Recorded>,
+    pub recorded: Option<BaseRecording>,
 }
 
 /// The file in view, or why there is none.
@@ -193,7 +193,7 @@ impl Measured {
                 Ok(true) => {
                     file.finish();
                     if self.wanted == Kind::Acceleration {
-                        match Recorded::of(&file.name, &file.points) {
+                        match BaseRecording::of(&file.name, &file.points) {
                             Ok(recorded) => file.recorded = Some(recorded),
                             // Rows in disorder can be sorted: the file stays in view.
                             Err(error) if file.clock.is_unsorted() => {

@@ -9,7 +9,7 @@ use crate::app::widgets::number::round_significant;
 
 use crate::model::{Along, Dimension, Parameter, ParameterSet, Scale, Shaking};
 use crate::questions::checks::Span;
-use crate::questions::design::find::{FindQuestion, Objective, Variable};
+use crate::questions::design::space::{DesignSpace, Objective, Variable};
 use crate::questions::harvest::Harvest;
 use crate::questions::load::{BestAt, Load, LoadStudy};
 use crate::questions::materials::{Fitted, Materials};
@@ -191,7 +191,7 @@ fn acceleration(view: &View) -> Option<f64> {
 }
 
 /// The map in view. What its sides vary must not make another question.
-pub(in crate::app) fn map(view: &View, session: &Session) -> FindQuestion {
+pub(in crate::app) fn map(view: &View, session: &Session) -> DesignSpace {
     let variables: Vec<Variable> =
         view.design.search.sides.iter().map(|side| variable(view, session, side)).collect();
     let mut scenario = view.scenario.clone();
@@ -207,15 +207,15 @@ pub(in crate::app) fn map(view: &View, session: &Session) -> FindQuestion {
     let usual = ParameterSet::default().get(Parameter::Beta);
     let follows = acceleration.map(|_| Forgotten::Number(Parameter::Beta, usual));
     let scenario = scenario.forgetting(follows.as_slice());
-    FindQuestion { scenario, variables, objective, limits: bench::chosen_limits(view), acceleration }
+    DesignSpace { scenario, variables, objective, limits: bench::chosen_limits(view), acceleration }
 }
 
 /// The search in view, from the device in view.
-pub(in crate::app) fn find(view: &View, session: &Session) -> FindQuestion {
+pub(in crate::app) fn find(view: &View, session: &Session) -> DesignSpace {
     let search = &view.design.search;
     let sides = search.sides.iter().chain(&search.third);
     let variables = sides.map(|side| variable(view, session, side)).collect();
     let objective = objective(view, session);
     let (scenario, limits) = (view.scenario.clone(), bench::chosen_limits(view));
-    FindQuestion { scenario, variables, objective, limits, acceleration: acceleration(view) }
+    DesignSpace { scenario, variables, objective, limits, acceleration: acceleration(view) }
 }

@@ -6,7 +6,7 @@ use crate::model::{ModelError, STANDARD_GRAVITY};
 
 /// An accelerometer's record of the base.
 #[derive(Debug, Clone)]
-pub(in crate::app) struct Recorded {
+pub(in crate::app) struct BaseRecording {
     /// How a link names it.
     pub recording: Recording,
     /// Times (s).
@@ -23,7 +23,7 @@ pub(in crate::app) struct Recorded {
     pub rms: f64,
 }
 
-impl Recorded {
+impl BaseRecording {
     /// Of a file's `points`, in s and m/s^2.
     ///
     /// # Errors
@@ -63,7 +63,7 @@ impl Recorded {
 
     /// Whether a limit at `highest` (Hz) takes anything away.
     pub(in crate::app) fn is_limited(&self, highest: f64) -> bool {
-        2.0 * highest * self.interval < 1.0
+        base_motion::reaches_above(highest, self.interval)
     }
 
     /// As the text of a file: time (s) and acceleration (g).

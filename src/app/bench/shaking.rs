@@ -1,7 +1,7 @@
 //! What the page asks the crew where the base is shaken by anything but the sine.
 
 use super::Bench;
-use super::recorded::Recorded;
+use super::recorded::BaseRecording;
 use crate::app::view::View;
 use crate::app::view::shake::ShakenBy;
 use crate::app::widgets::number::round_significant;
@@ -57,7 +57,7 @@ pub(in crate::app) fn duration(view: &View) -> f64 {
 }
 
 /// The recording in view, when it has been brought.
-pub(in crate::app) fn recorded<'a>(view: &View, bench: &'a Bench) -> Option<&'a Recorded> {
+pub(in crate::app) fn recorded<'a>(view: &View, bench: &'a Bench) -> Option<&'a BaseRecording> {
     let brought = bench.vibration.file.as_ref()?.recorded.as_ref()?;
     let wanted = view.design.shake.recording.as_ref();
     wanted.is_none_or(|wanted| wanted.checksum == brought.recording.checksum).then_some(brought)
@@ -103,7 +103,7 @@ fn noise(view: &View, rms: f64) -> Noise {
 pub(in crate::app) fn noise_as_recorded(view: &View) -> Option<String> {
     let signal = noise(view, view.design.shake.level).signal(0).ok()?;
     let time: Vec<f64> = (0..signal.samples().len()).map(|i| i as f64 * signal.interval()).collect();
-    Some(Recorded::text(&time, signal.samples()))
+    Some(BaseRecording::text(&time, signal.samples()))
 }
 
 /// The chirp in view, at a level (g).

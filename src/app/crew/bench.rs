@@ -5,8 +5,8 @@ use crate::app::bench::questions;
 use crate::app::session::Session;
 use crate::app::view::View;
 use crate::questions::design::Operating;
-use crate::questions::design::find::FindQuestion;
 use crate::questions::design::linear::{LinearBest, linear_at_its_best};
+use crate::questions::design::space::DesignSpace;
 use crate::questions::find::FindStudy;
 use crate::questions::fit::{Fit, FitStudy};
 use crate::questions::harvest::{Deliver, HarvestStudy};
@@ -48,7 +48,7 @@ impl Studies {
     /// What of the question is out of range.
     pub(in crate::app) fn search(
         &mut self,
-        question: Option<FindQuestion>,
+        question: Option<DesignSpace>,
         view: &View,
     ) -> Result<(), Sentence> {
         let Some(lane) = self.lanes.lane_mut::<FindStudy>() else { return Ok(()) };

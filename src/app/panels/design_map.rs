@@ -14,7 +14,7 @@ use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Filling, chips, colour_bar, hatched, recorder, row, swatches};
 use crate::app::{bench, colours, theme};
 use crate::model::{Dimension, ElectricalScaling};
-use crate::questions::design::find::{Evaluation, Objective};
+use crate::questions::design::space::{Evaluation, Objective};
 use crate::questions::map::DesignMap;
 use crate::scheduler::Asked as _;
 

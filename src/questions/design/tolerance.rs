@@ -61,7 +61,7 @@ pub fn coordinates(scenario: &Scenario) -> Result<Vec<(Coordinate, f64)>, ModelE
     let all = dimensions(scenario)?.into_iter().filter(|(dimension, _)| itself(dimension));
     let mut all: Vec<(Coordinate, f64)> =
         all.map(|(dimension, value)| (Coordinate::Dimension(dimension), value)).collect();
-    let numbers = LayerNumber::ALL.into_iter();
+    let numbers = LayerNumber::ALL.iter().copied();
     let given = numbers.filter_map(|number| Some((number, layers?.number(number)?)));
     all.extend(
         given.filter(|(_, value)| *value != 0.0).map(|(number, value)| (Coordinate::Layer(number), value)),

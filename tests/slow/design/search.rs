@@ -3,7 +3,7 @@
 use crate::Fallible;
 use harvester_lab::model::materials::Ceramic;
 use harvester_lab::model::{Device, Dimension, ForceLaw, Limits, Parameter};
-use harvester_lab::questions::design::find::{Evaluation, FindQuestion, Objective, Variable, evaluate};
+use harvester_lab::questions::design::space::{DesignSpace, Evaluation, Objective, Variable, evaluate};
 use harvester_lab::questions::design::{Plant, operating};
 use harvester_lab::questions::find::{Evaluate, FindStudy, NEIGHBOURS, ROUNDS};
 use harvester_lab::questions::map::DesignMap;
@@ -14,7 +14,7 @@ use harvester_lab::scheduler::{Finding, Study, complete};
 
 use super::{TestResult, figure_9};
 
-fn question(objective: Objective, limits: Limits) -> FindQuestion {
+fn question(objective: Objective, limits: Limits) -> DesignSpace {
     let model = ModelChoice { force: ForceLaw::Exact, ..Default::default() };
     let scenario = Scenario { model, t_end: 300.0, ..figure_9() };
     let dimension = |dimension, range| Variable {
@@ -24,7 +24,7 @@ fn question(objective: Objective, limits: Limits) -> FindQuestion {
     };
     let variables =
         vec![dimension(Dimension::Frequency, (2.5, 3.2)), dimension(Dimension::Resistance, (1e5, 1e9))];
-    FindQuestion { scenario, variables, objective, limits, acceleration: None }
+    DesignSpace { scenario, variables, objective, limits, acceleration: None }
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn candidates_without_a_device_are_answers_and_bad_questions_errors() -> TestRes
     let mut same = good.clone();
     same.variables[1] = same.variables[0];
     assert!(FindStudy::new(same, 5, 1).is_err());
-    let none = FindQuestion { variables: Vec::new(), ..good.clone() };
+    let none = DesignSpace { variables: Vec::new(), ..good.clone() };
     assert!(FindStudy::new(none, 5, 1).is_err() && FindStudy::new(good, 0, 1).is_err());
     Ok(())
 }
@@ -216,7 +216,7 @@ fn a_map_is_the_bench_at_every_place_and_marks_what_is_not_allowed() -> TestResu
     assert!((1..4).contains(&forbidden), "{forbidden}");
     let (place, best) = map.best().ok_or("one is allowed")?;
     assert!(best.violation == 0.0 && map.cell(place) == Some(&best));
-    assert!(DesignMap::new(FindQuestion { variables: Vec::new(), ..question }, (7, 5)).is_err());
+    assert!(DesignMap::new(DesignSpace { variables: Vec::new(), ..question }, (7, 5)).is_err());
     Ok(())
 }
 

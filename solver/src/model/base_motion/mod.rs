@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 pub use chirp::Chirp;
 pub use noise::Noise;
-pub use recorded::Recorded;
+pub use recorded::{Recorded, reaches_above};
 pub use shared::Shared;
 pub use signal::{DERIVATIVES, Signal};
 

@@ -141,13 +141,18 @@ fn entry(
     ModelError::check(&format!("{list}[{i}]"), value, (low, high), unit).map(|_| ())
 }
 
+/// Whether samples `interval` (s) apart can hold anything above the frequency `highest` (Hz), so that a limit there takes it away.
+pub fn reaches_above(highest: f64, interval: f64) -> bool {
+    2.0 * highest * interval < 1.0
+}
+
 /// Samples so far apart (s), without what is above `highest` (Hz), and how far apart the new ones are. Samples that hold nothing
 /// above it stay as they are.
 ///
 /// Reference: the ideal low-pass filter under Blackman's window; Oppenheim & Schafer, "Discrete-Time Signal Processing",
 /// section 7.5.
 fn limited(interval: f64, samples: Vec<f64>, highest: f64) -> (f64, Vec<f64>) {
-    if 2.0 * highest * interval >= 1.0 {
+    if !reaches_above(highest, interval) {
         return (interval, samples);
     }
     let last = samples.len() - 1;

@@ -14,7 +14,7 @@ use crate::app::theme;
 use crate::app::view::design::Aim;
 use crate::app::widgets::number::significant;
 use crate::app::widgets::{Card, chips};
-use crate::questions::design::find::Objective;
+use crate::questions::design::space::Objective;
 use crate::questions::find::{Candidate, FindStudy};
 use crate::scheduler::Study as _;
 use crate::sentence::Sentence;

@@ -3,7 +3,7 @@
 use egui::{Label, RichText, Ui};
 
 use super::columns;
-use crate::app::bench::recorded::Recorded;
+use crate::app::bench::recorded::BaseRecording;
 use crate::app::bench::shaking::{band, duration, recorded};
 use crate::app::command::Command;
 use crate::app::panels::Context;
@@ -169,7 +169,7 @@ fn recording(context: &mut Context<'_>, ui: &mut Ui, shake: &mut ShakeView) {
 }
 
 /// What a recording is, and what was done to it.
-fn described(context: &Context<'_>, ui: &mut Ui, found: &Recorded) {
+fn described(context: &Context<'_>, ui: &mut Ui, found: &BaseRecording) {
     let weak = theme::tokens(ui).text_weak;
     let level = fill(
         "{name}: {samples} samples in {seconds} s, {rms} g rms about the mean.",

@@ -1,5 +1,5 @@
-//! A design question for an optimiser: what to change within which ranges, what to make large, within which limits; and
-//! the evaluation of one candidate.
+//! The devices among which `find`, `map` and `tolerances` look: what may change within which ranges, what is to be good, within
+//! which limits; and the evaluation of one candidate.
 
 use serde::{Deserialize, Serialize};
 
@@ -73,9 +73,9 @@ pub enum Objective {
     Threshold(Resonance),
 }
 
-/// The question.
+/// The devices among which is looked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
-pub struct FindQuestion {
+pub struct DesignSpace {
     /// The device and everything that is not varied.
     pub scenario: Scenario,
     /// What is varied.
@@ -92,7 +92,7 @@ pub struct FindQuestion {
 /// Largest number of variables.
 const MOST_VARIABLES: usize = 8;
 
-impl FindQuestion {
+impl DesignSpace {
     /// The scenario of a candidate, a value for each variable.
     ///
     /// # Errors
@@ -164,23 +164,22 @@ impl Evaluation {
     }
 }
 
-/// Evaluates one candidate, a value for each variable of `question`.
+/// Evaluates one candidate, a value for each variable of `space`.
 ///
 /// # Errors
-/// [`DesignError`] when the question itself cannot be asked; a candidate without a device, or whose motion cannot be
+/// [`DesignError`] when the space itself is none; a candidate without a device, or whose motion cannot be
 /// followed, is an answer.
-pub fn evaluate(question: &FindQuestion, values: &[f64]) -> Result<Evaluation, DesignError> {
-    let Ok(scenario) = question.candidate(values) else { return Ok(Evaluation::NOTHING) };
+pub fn evaluate(space: &DesignSpace, values: &[f64]) -> Result<Evaluation, DesignError> {
+    let Ok(scenario) = space.candidate(values) else { return Ok(Evaluation::NOTHING) };
     let Ok(plant) = Plant::new(&scenario) else { return Ok(Evaluation::NOTHING) };
-    match question.objective {
-        Objective::Band { least, from, to, count } => band(question, &plant, least, (from, to), count),
+    match space.objective {
+        Objective::Band { least, from, to, count } => band(space, &plant, least, (from, to), count),
         Objective::Threshold(resonance) => threshold(&plant, resonance),
         Objective::Power | Objective::PowerPerG2 | Objective::Voltage => {
-            let Some((found, violation)) = lasting_at(question, &plant, plant.scenario.parameters.omega)
-            else {
+            let Some((found, violation)) = lasting_at(space, &plant, plant.scenario.parameters.omega) else {
                 return Ok(Evaluation::NOTHING);
             };
-            let value = found.harvest.and_then(|harvest| match question.objective {
+            let value = found.harvest.and_then(|harvest| match space.objective {
                 Objective::Voltage => Some(harvest.measures.v_rms),
                 Objective::PowerPerG2 => harvest.power_per_g2,
                 _ => Some(harvest.measures.power),
@@ -191,9 +190,9 @@ pub fn evaluate(question: &FindQuestion, values: &[f64]) -> Result<Evaluation, D
 }
 
 /// The motion reached at a frequency and how much it violates; `None` when there is none to be had.
-fn lasting_at(question: &FindQuestion, plant: &Plant, omega: f64) -> Option<(Lasting, f64)> {
+fn lasting_at(space: &DesignSpace, plant: &Plant, omega: f64) -> Option<(Lasting, f64)> {
     let mut scenario = plant.scenario.clone();
-    if question.acceleration.is_some() {
+    if space.acceleration.is_some() {
         scenario.parameters.beta *= (scenario.parameters.omega / omega).powi(2);
     }
     scenario.parameters.omega = omega;
@@ -202,7 +201,7 @@ fn lasting_at(question: &FindQuestion, plant: &Plant, omega: f64) -> Option<(Las
     let violation = match found.harvest {
         None => NO_MOTION,
         Some(harvest) => {
-            let limits = question.limits.completed(&scenario.base());
+            let limits = space.limits.completed(&scenario.base());
             let checks = limits.checks(&harvest.demand, Plant::gap(&system));
             let beyond = checks.iter().filter(|check| check.standing != Standing::Within);
             // What is just met, or is no number, counts as well.
@@ -216,7 +215,7 @@ fn lasting_at(question: &FindQuestion, plant: &Plant, omega: f64) -> Option<(Las
 }
 
 fn band(
-    question: &FindQuestion,
+    space: &DesignSpace,
     plant: &Plant,
     least: f64,
     range: (f64, f64),
@@ -224,7 +223,7 @@ fn band(
 ) -> Result<Evaluation, DesignError> {
     let (mut curve, mut violation) = (Vec::with_capacity(count), 0.0_f64);
     for frequency in equally_spaced(range, count) {
-        let Some((found, violated)) = lasting_at(question, plant, plant.units.omega(frequency)) else {
+        let Some((found, violated)) = lasting_at(space, plant, plant.units.omega(frequency)) else {
             return Ok(Evaluation::NOTHING);
         };
         violation = violation.max(violated);
@@ -246,20 +245,20 @@ mod tests {
     use super::*;
     use crate::questions::design::operating;
 
-    fn question(acceleration: Option<f64>) -> FindQuestion {
+    fn space(acceleration: Option<f64>) -> DesignSpace {
         let range = (2.7, 3.3);
         let coordinate = Coordinate::Dimension(Dimension::Frequency);
         let variables = vec![Variable { coordinate, range, logarithmic: false }];
         let (objective, limits) = (Objective::Power, Limits::default());
-        FindQuestion { scenario: Scenario::default(), variables, objective, limits, acceleration }
+        DesignSpace { scenario: Scenario::default(), variables, objective, limits, acceleration }
     }
 
     #[test]
     fn candidates_are_shaken_with_the_acceleration_that_is_held() {
         for frequency in [2.7, 3.0, 3.3] {
-            let held = question(Some(0.03)).candidate(&[frequency]).expect("a device").device().expect("one");
+            let held = space(Some(0.03)).candidate(&[frequency]).expect("a device").device().expect("one");
             assert!((held.acceleration() / 0.03 - 1.0).abs() < 1e-12, "{}", held.acceleration());
-            let free = question(None).candidate(&[frequency]).expect("a device").device().expect("one");
+            let free = space(None).candidate(&[frequency]).expect("a device").device().expect("one");
             let own = Scenario::default().device().expect("one").base_amplitude;
             assert!((free.base_amplitude / own - 1.0).abs() < 1e-12);
             // What is found is what the bench says of that very device.
@@ -268,13 +267,13 @@ mod tests {
             let device = crate::model::Device { frequency, ..device }.with_acceleration(0.03);
             scenario.set_device(device, scenario.scaling).expect("a device");
             let said = operating(&scenario).expect("a device").reached.harvest.expect("it lasts");
-            let found = evaluate(&question(Some(0.03)), &[frequency]).expect("an answer").value.expect("one");
+            let found = evaluate(&space(Some(0.03)), &[frequency]).expect("an answer").value.expect("one");
             assert!((found / said.measures.power - 1.0).abs() < 1e-9, "{found} {}", said.measures.power);
         }
         // Where the amplitude itself is varied, nothing else decides it.
         let coordinate = Coordinate::Dimension(Dimension::BaseAmplitude);
         let variables = vec![Variable { coordinate, range: (1e-4, 1e-3), logarithmic: false }];
-        let varied = FindQuestion { variables, ..question(Some(0.03)) };
+        let varied = DesignSpace { variables, ..space(Some(0.03)) };
         let device = varied.candidate(&[7e-4]).expect("a device").device().expect("one");
         assert!((device.base_amplitude / 7e-4 - 1.0).abs() < 1e-12);
     }
