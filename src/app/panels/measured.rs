@@ -37,7 +37,7 @@ fn ask(asking: &mut Asking<'_>) {
 
 fn hint(context: &Context<'_>) -> String {
     match context.bench.measured.progress() {
-        Some(done) => fill("reading {percent} %", &[("percent", &format!("{:.0}", 100.0 * done))]),
+        Some(done) => super::reading(done),
         None => tr("drop a file anywhere on the page").to_owned(),
     }
 }

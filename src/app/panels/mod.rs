@@ -148,6 +148,10 @@ fn say_cut(ui: &mut egui::Ui, some: bool) {
 }
 
 /// What is said of work under way, by its done part, 0 to 1.
+fn reading(part: f64) -> String {
+    fill("reading {percent} %", &[("percent", &format!("{:.0}", 100.0 * part))])
+}
+
 fn computing(part: f64) -> String {
     fill("computing {percent} %", &[("percent", &format!("{:.0}", 100.0 * part))])
 }

@@ -2,7 +2,7 @@
 
 use egui::{Popup, Ui};
 
-use super::{Context, share, shortcuts};
+use super::{Context, design, share, shortcuts};
 use crate::app::command::{Command, Commands};
 use crate::app::lessons::course;
 use crate::app::lessons::data::Step;
@@ -79,7 +79,11 @@ fn choose_tab(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str) -> egui::Response) {
-    match context.session.status() {
+    let status = match design::shaking::under_way(context) {
+        Some(part) => Status::Computing(part),
+        None => context.session.status(),
+    };
+    match status {
         Status::Done => badge(ui, BadgeKind::Converged, tr("computed")),
         Status::Computing(part) => badge(ui, BadgeKind::Computing, &computing(part)),
         Status::Failed(_) => badge(ui, BadgeKind::Error, tr("no answer")),

@@ -115,11 +115,7 @@ fn recording(context: &mut Context<'_>, ui: &mut Ui, shake: &mut ShakeView) {
     }
     let found = recorded(context.view, bench);
     if let Some(progress) = bench.vibration.progress() {
-        line(
-            ui,
-            fill("reading {percent} %", &[("percent", &format!("{:.0}", 100.0 * progress))]),
-            tokens.text_weak,
-        );
+        line(ui, super::super::reading(progress), tokens.text_weak);
     } else if found.is_none() {
         let text = match &shake.recording {
             Some(recording) => fill(

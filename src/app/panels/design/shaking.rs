@@ -60,16 +60,26 @@ pub(in crate::app::panels) fn summary(context: &Context<'_>) -> Option<ShakeAnsw
     question(context.view, context.bench)?.1.summary(&found(context)?.ok()?)
 }
 
+/// How far the runs under way are, 0 to 1, where what is in view is shaken by them.
+pub(in crate::app::panels) fn under_way(context: &Context<'_>) -> Option<f64> {
+    let Context { view, bench, studies, .. } = *context;
+    let runs = view.shaken().and_then(|_| in_view(view, bench, studies))?;
+    let part = studies.lanes.lane::<Table<ShakenRun>>().and_then(Traffic::progress);
+    part.filter(|_| !runs.is_stopped())
+}
+
 /// Why there is nothing to show yet.
 pub(in crate::app::panels) fn waiting(context: &Context<'_>) -> String {
     let Context { view, bench, studies, .. } = *context;
     let left = in_view(view, bench, studies).and_then(|runs| unfinished(runs, studies));
-    left.map_or_else(|| waiting_for(view, bench).to_owned(), |(_, text)| text)
+    left.map_or_else(|| waiting_for(view, bench), |(_, text)| text)
 }
 
-fn waiting_for(view: &View, bench: &Bench) -> &'static str {
-    let brought = motion(view, bench, view.design.shake.level).is_some();
-    if brought { tr("computing") } else { tr("waits for a recording") }
+fn waiting_for(view: &View, bench: &Bench) -> String {
+    if motion(view, bench, view.design.shake.level).is_some() {
+        return tr("computing").to_owned();
+    }
+    bench.vibration.progress().map_or_else(|| tr("waits for a recording").to_owned(), super::super::reading)
 }
 
 /// Draws the card of the page Shake.
@@ -92,7 +102,7 @@ pub(in crate::app::panels) fn while_live(context: &mut Context<'_>, ui: &mut Ui)
     let weak = theme::tokens(ui).text_weak;
     Card::new("").hugging().show(ui, |ui| {
         let (text, more) = match context.live.shaken() {
-            None => (waiting_for(context.view, context.bench).to_owned(), String::new()),
+            None => (waiting_for(context.view, context.bench), String::new()),
             Some((shaking, time)) => {
                 (now_shaken(context, &shaking.motion, time), anew(shaking.duration(), time))
             }
@@ -169,7 +179,7 @@ pub(in crate::app) fn said(view: &View, bench: &Bench, studies: &Studies) -> Vec
     let left = runs.and_then(|runs| unfinished(runs, studies));
     let answer = question(view, bench).and_then(|(_, shake)| shake.summary(&found));
     let Some(answer) = answer else {
-        let waiting = || (Meant::Aside, waiting_for(view, bench).to_owned());
+        let waiting = || (Meant::Aside, waiting_for(view, bench));
         return vec![left.unwrap_or_else(waiting)];
     };
     // First, so that its button does not move when there is more to say.

@@ -191,6 +191,7 @@ fn what_is_computed_about_noise_can_be_stopped_and_taken_up_again() {
         }
     }
     assert!(begun(&desk));
+    assert!(!says(&desk, "computed"));
     for label in ["computing ", "Stop"] {
         let node = desk.harness.nodes.iter().find(|node| node.label.starts_with(label)).expect("in view");
         assert!(node.bounds.right() <= 360.0, "{node:?}");
@@ -199,6 +200,7 @@ fn what_is_computed_about_noise_can_be_stopped_and_taken_up_again() {
     // It stays so, however often the page asks.
     desk.work(20);
     desk.harness.find(Role::Label, "Stopped before its end.");
+    assert!(says(&desk, "computed"));
     assert!(!desk.harness.nodes.iter().any(|node| node.label == "Stop"));
     press(&mut desk, Role::Button, "Compute");
     compute(&mut desk);
