@@ -89,7 +89,7 @@ pub(super) struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// About `orbit`, whose map `solver` holds.
+    /// About `orbit`, of which `solver` holds the map and the derivative over its shortest period.
     ///
     /// # Errors
     /// As [`crate::dynamics::PeriodMap::apply`]; [`OrbitError::Singular`] when the eigenvectors cannot be computed.
@@ -99,13 +99,12 @@ impl Neighbourhood {
         system: &ReducedSystem,
     ) -> Result<Self, OrbitError> {
         let p = &system.parameters;
-        let (map, beta) = (solver.map(), p.beta);
-        map.apply(&orbit.state, beta, orbit.periods, |_, _| ())?;
-        let matrix = map.scaled_derivative().map(Complex::from);
+        let matrix = solver.monodromy().map(Complex::from);
+        let map = solver.map();
         let scales = map.scales().to_vec();
         let mut states = vec![orbit.state.clone()];
         while let Some(last) = states.last().filter(|_| states.len() < orbit.periods) {
-            map.apply(last, beta, 1, |_, _| ())?;
+            map.carry(last, p.beta, 1)?;
             states.push(map.image().to_vec());
         }
         let upper = orbit.multipliers.iter().filter(|multiplier| multiplier.im >= 0.0);

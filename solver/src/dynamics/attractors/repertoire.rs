@@ -80,9 +80,9 @@ impl Repertoire {
         let mut solver = self.solver.clone();
         // A long period is looked for where the states nearly repeat already, so that the iteration converges or never will.
         let convergence = if periods > SHORT {
-            solver.follow(state, beta, periods).ok()?
+            solver.follow_state(state, beta, periods).ok()?
         } else {
-            solver.find(state, beta, periods).ok()?
+            solver.find_state(state, beta, periods).ok()?
         };
         self.learn(solver, convergence, periods)
     }
@@ -93,7 +93,7 @@ impl Repertoire {
         let guesses = std::mem::take(&mut self.guesses);
         let found = guesses.into_iter().filter_map(|(state, periods)| {
             let mut solver = self.solver.clone();
-            let convergence = solver.follow(&state, beta, periods).ok()?;
+            let convergence = solver.follow_state(&state, beta, periods).ok()?;
             self.learn(solver, convergence, periods)
         });
         found.collect()
@@ -107,7 +107,12 @@ impl Repertoire {
         if let Some(index) = self.known.iter().position(|known| known.holds(&found, SAME * gap)) {
             return Some(index);
         }
-        let orbit = Orbit::read(&self.system, &mut solver, convergence, beta, periods).ok()?;
+        let mut orbit = Orbit::read(&self.system, &mut solver, convergence, beta, periods).ok()?;
+        if !solver.was_resolved() {
+            // The derivative, which the search for the state left out at last, asks for a finer grid than the motion.
+            let convergence = solver.find(&found, beta, periods).ok()?;
+            orbit = Orbit::read(&self.system, &mut solver, convergence, beta, periods).ok()?;
+        }
         self.known.push(Neighbourhood::new(orbit, &mut solver, &self.system).ok()?);
         Some(self.known.len() - 1)
     }

@@ -52,6 +52,8 @@ pub struct OrbitSolver {
     /// Derivative of the map at the state of the last evaluation, scaled.
     matrix: DMatrix<f64>,
     residual: f64,
+    /// Estimated error of what was observed last, in units of what is allowed.
+    error: f64,
     effort: u64,
 }
 
@@ -71,6 +73,7 @@ impl OrbitSolver {
             state: vec![0.0; n],
             matrix: DMatrix::zeros(n, n),
             residual: f64::INFINITY,
+            error: f64::INFINITY,
             effort: 0,
         }
     }
@@ -96,6 +99,11 @@ impl OrbitSolver {
         &self.matrix
     }
 
+    /// Whether the grid was fine enough for what [`Self::evaluate_observed`] evaluated last.
+    pub(in crate::dynamics) fn was_resolved(&self) -> bool {
+        self.error <= 1.0
+    }
+
     /// State of the orbit found last at t = 0, length 2N + 1.
     pub fn state(&self) -> &[f64] {
         &self.state
@@ -110,40 +118,68 @@ impl OrbitSolver {
     /// [`OrbitError::NoConvergence`].
     pub fn find(&mut self, guess: &[f64], beta: f64, periods: usize) -> Result<Convergence, OrbitError> {
         self.begin(guess)?;
-        let mut error = self.evaluate_rescued(beta, periods)?;
         let mut iterations = 1;
+        let mut error = self.evaluate_rescued(beta, periods)?;
+        while !self.iterate(error, beta, periods, &mut iterations)? {
+            error = self.evaluate(beta, periods)?;
+            iterations += 1;
+        }
+        Ok(Convergence { iterations, residual: self.residual })
+    }
+
+    /// As [`Self::find`], but what stays in the solver is the state alone: the derivative may be that of an earlier one.
+    ///
+    /// # Errors
+    /// As [`Self::find`].
+    pub(in crate::dynamics) fn find_state(
+        &mut self,
+        guess: &[f64],
+        beta: f64,
+        periods: usize,
+    ) -> Result<Convergence, OrbitError> {
+        self.begin(guess)?;
+        let mut iterations = 1;
+        let error = self.evaluate_rescued(beta, periods)?;
+        self.iterate(error, beta, periods, &mut iterations)?;
+        Ok(Convergence { iterations, residual: self.residual })
+    }
+
+    /// Newton's iteration from where map and derivative were evaluated last, with that `error`, until a correction is the last
+    /// one, which is then made. Returns whether the derivative is that of the iteration's last state.
+    fn iterate(
+        &mut self,
+        mut error: f64,
+        beta: f64,
+        periods: usize,
+        iterations: &mut usize,
+    ) -> Result<bool, OrbitError> {
         // Whether the derivative is that at the present state.
         let mut fresh = true;
         loop {
             if error > 1.0 && self.residual < 1e-3 {
                 self.map.refine()?;
                 (error, fresh) = (self.evaluate_rescued(beta, periods)?, true);
-                iterations += 1;
+                *iterations += 1;
                 continue;
             }
             let correction = self.correction()?;
-            let stalled = iterations >= STALLED.0
+            let stalled = *iterations >= STALLED.0
                 && self.residual <= STALLED.1
                 && self.largest(&correction) <= STALLED.2;
             if (self.largest(&correction) <= SETTLED || stalled) && error <= 1.0 {
                 self.add(&correction, 1.0);
-                if fresh {
-                    return Ok(Convergence { iterations, residual: self.residual });
-                }
-                (error, fresh) = (self.evaluate(beta, periods)?, true);
-                iterations += 1;
-                continue;
+                return Ok(fresh);
             }
             let before = self.residual;
             let start = self.state.clone();
             let mut factor = 1.0;
             for halvings in 0..=MAX_HALVINGS {
-                if iterations >= MAX_ITERATIONS || halvings == MAX_HALVINGS {
-                    return Err(OrbitError::NoConvergence { iterations, residual: before });
+                if *iterations >= MAX_ITERATIONS || halvings == MAX_HALVINGS {
+                    return Err(OrbitError::NoConvergence { iterations: *iterations, residual: before });
                 }
                 self.state.copy_from_slice(&start);
                 self.add(&correction, factor);
-                iterations += 1;
+                *iterations += 1;
                 match self.evaluate_image(beta, periods) {
                     // At the level of rounding the defect need not fall any more.
                     Ok(new) if self.residual < before || self.residual < SETTLED => {
@@ -191,6 +227,49 @@ impl OrbitSolver {
                 return Ok(Convergence { iterations, residual: self.residual });
             }
             before = size;
+        }
+        Err(OrbitError::NoConvergence { iterations, residual: self.residual })
+    }
+
+    /// As [`Self::follow`], but what stays in the solver is the state alone: a derivative serves for as long as corrections shrink
+    /// fast.
+    ///
+    /// # Errors
+    /// As [`Self::follow`].
+    pub(in crate::dynamics) fn follow_state(
+        &mut self,
+        guess: &[f64],
+        beta: f64,
+        periods: usize,
+    ) -> Result<Convergence, OrbitError> {
+        self.begin(guess)?;
+        let (mut iterations, mut derivatives) = (0, 0);
+        let mut sizes = [f64::INFINITY; 2];
+        while derivatives < MAX_WARM_ITERATIONS {
+            iterations += 1;
+            // The first correction says nothing yet about how fast they shrink.
+            let [before, size] = sizes;
+            let chord = iterations == 2 || size <= CHORD * before && before.is_finite();
+            let error = if chord {
+                self.evaluate_image(beta, periods)?
+            } else {
+                derivatives += 1;
+                self.evaluate(beta, periods)?
+            };
+            if error > 1.0 {
+                self.map.refine()?;
+                (iterations, derivatives, sizes) = (0, 0, [f64::INFINITY; 2]);
+                continue;
+            }
+            let correction = self.correction()?;
+            self.add(&correction, 1.0);
+            let size = self.largest(&correction);
+            let stalled =
+                self.residual <= WARM_STALLED.0 && size <= STALLED.2 && size > WARM_STALLED.1 * sizes[1];
+            if size <= SETTLED || stalled {
+                return Ok(Convergence { iterations, residual: self.residual });
+            }
+            sizes = [sizes[1], size];
         }
         Err(OrbitError::NoConvergence { iterations, residual: self.residual })
     }
@@ -272,7 +351,7 @@ impl OrbitSolver {
         observer: impl FnMut(&Step<'_>, &StepDerivative<'_>),
     ) -> Result<f64, OrbitError> {
         self.count(periods);
-        self.map.apply(&self.state, beta, periods, observer)?;
+        self.error = self.map.apply(&self.state, beta, periods, observer)?;
         self.take();
         Ok(self.residual)
     }
@@ -400,6 +479,39 @@ impl OrbitSolver {
         let steps = correction.iter().zip(self.map.scales());
         for (value, (step, scale)) in self.state.iter_mut().zip(steps) {
             *value += factor * step * scale;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::orbits::period_map::distance;
+    use crate::model::{ForceLaw, ParameterSet, Parameters};
+
+    #[test]
+    fn a_state_found_with_old_derivatives_is_that_of_newtons_iteration() {
+        for (modes, law) in [(1, ForceLaw::Quadratic), (2, ForceLaw::Exact), (4, ForceLaw::Quadratic)] {
+            for (omega, periods) in [(25.0, 1), (8.0969, 2)] {
+                let set = ParameterSet { alpha: 1e-4, beta: 2.5e-3, omega, ..Default::default() };
+                let system =
+                    Parameters::new(set).and_then(|p| ReducedSystem::new(p, modes, law)).expect("a device");
+                let mut solver = OrbitSolver::new(&system);
+                let mut guess = vec![0.0; system.dimension()];
+                guess[0] = 0.02;
+                solver.find(&guess, set.beta, periods).expect("an orbit");
+                let found = solver.state().to_vec();
+                let same = |other: &OrbitSolver| {
+                    distance(other.state(), &found, other.map.scales()) <= 10.0 * SETTLED * other.map.gap()
+                };
+                let mut other = OrbitSolver::new(&system);
+                other.find_state(&guess, set.beta, periods).expect("as before");
+                assert!(same(&other), "{modes} modes, {law:?}, omega = {omega}");
+                // From near, as from an orbit of a similar system.
+                let near: Vec<f64> = found.iter().map(|value| 1.001 * value).collect();
+                other.follow_state(&near, set.beta, periods).expect("a good guess");
+                assert!(same(&other), "{modes} modes, {law:?}, omega = {omega}");
+            }
         }
     }
 }

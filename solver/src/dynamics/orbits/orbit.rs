@@ -177,7 +177,7 @@ pub(super) fn shortest_period(
     let state = solver.state().to_vec();
     for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
         let map = solver.map();
-        map.apply(&state, beta, part, |_, _| ())?;
+        map.carry(&state, beta, part)?;
         if distance(map.image(), &state, map.scales()) < SAME_POINT * map.gap() {
             return Ok(part);
         }
