@@ -1,6 +1,8 @@
 //! The tasks `continue` and `curves` against independent values, and against the tasks that ask the same elsewhere.
 
 use crate::{OMEGA_1, answer, list, number};
+use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
+use harvester_lab::theory::LinearResponse;
 use serde_json::{Value, json};
 
 /// Entries of a list whose `field` is this.
@@ -314,6 +316,63 @@ fn each_of_the_ten_numbers_can_be_followed_and_its_doublings_are_boundaries() {
             }));
             let beta = number(&boundary["beta"][0]);
             assert!((beta / number(&there["beta"]) - 1.0).abs() < 1e-6, "{parameter}: {found} {boundary}");
+        }
+    }
+}
+
+/// The first branch over the frequency in a window, and what leaves it.
+fn over_frequency([from, to]: [f64; 2], parameters: &Value) -> Value {
+    let mut request =
+        json!({"task": "continue", "parameter": "omega", "from": from, "to": to, "parameters": parameters});
+    request["parameters"]["omega"] = json!(from);
+    answer(&request)
+}
+
+#[test]
+fn a_wide_window_steps_over_no_peak_of_the_linear_device() {
+    for alpha in [1e-3, 1e-5] {
+        let parameters = json!({"c0": 0.0, "alpha": alpha, "beta": 1e-5});
+        let found = over_frequency([0.5, 100.0], &parameters);
+        let at = |omega: f64| {
+            let set = ParameterSet { c0: 0.0, alpha, beta: 1e-5, omega, ..Default::default() };
+            ReducedSystem::new(Parameters::new(set).expect("in range"), 2, ForceLaw::Exact).expect("a system")
+        };
+        let voltage = |omega: f64| {
+            LinearResponse::new(&at(omega)).expect("damped").voltage_harmonic().root_mean_square()
+        };
+        let points = list(&found["branches"][0]["points"]);
+        for point in points {
+            let (omega, v_rms) = (number(&point["value"]), number(&point["v_rms"]));
+            assert!((v_rms / voltage(omega) - 1.0).abs() < 1e-5, "{alpha} {omega}: {v_rms}");
+        }
+        for mode in at(10.0).modes.iter() {
+            let near = |omega: f64| (omega / mode.omega - 1.0).abs() < 0.05;
+            let highest = points.iter().filter(|point| near(number(&point["value"])));
+            let highest = highest.map(|point| number(&point["v_rms"])).fold(0.0, f64::max);
+            let peak = (-10_000..=10_000).map(|k| voltage(mode.omega * (1.0 + 5e-6 * f64::from(k))));
+            let peak = peak.fold(0.0, f64::max);
+            assert!(highest > 0.95 * peak, "{alpha} mode at {}: {highest} of {peak}", mode.omega);
+        }
+    }
+}
+
+#[test]
+fn doublings_do_not_depend_on_the_window() {
+    // The smallest is 2 % above what opens the tongue.
+    for (alpha, beta) in [(1e-4, 4.3e-4), (1e-4, 8e-4), (1e-3, 2e-3)] {
+        let parameters = json!({"alpha": alpha, "beta": beta});
+        let doublings = |window: [f64; 2]| -> Vec<f64> {
+            let found = over_frequency(window, &parameters);
+            let all = &found["branches"][0]["bifurcations"];
+            let values = those(all, "kind", "period_doubling").map(|doubling| number(&doubling["value"]));
+            values.filter(|omega| (7.9..8.4).contains(omega)).collect()
+        };
+        let near = doublings([8.0, 8.3]);
+        assert_eq!(near.len(), 2, "{alpha} {beta}: {near:?}");
+        for window in [[5.0, 12.0], [1.0, 45.0], [0.5, 100.0]] {
+            let far = doublings(window);
+            let same = far.len() == 2 && near.iter().zip(&far).all(|(a, b)| (a - b).abs() < 1e-6);
+            assert!(same, "{alpha} {beta} {window:?}: {far:?} for {near:?}");
         }
     }
 }

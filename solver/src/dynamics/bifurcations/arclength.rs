@@ -299,18 +299,24 @@ impl Family<1> {
         Err(OrbitError::NoConvergence { iterations: MAX_ITERATIONS, residual })
     }
 
-    /// Unit tangent of the branch at `place`, on the side of `like`.
+    /// Unit tangent of the branch at `place`, on the side of `like`, and the sign of the determinant of the defect's derivative
+    /// bordered by it. Along a branch that sign stays, through folds as well (Seydel, section 5.4): it changes where branches
+    /// cross, and between neighbouring pieces of one, or of two, that run side by side in opposite senses.
     pub(super) fn tangent(
         &mut self,
         place: &DVector<f64>,
         like: &DVector<f64>,
-    ) -> Result<DVector<f64>, OrbitError> {
+    ) -> Result<(DVector<f64>, f64), OrbitError> {
         let (_, derivative) = self.linearised(place, true)?;
         let mut right = DVector::zeros(place.len());
         right[place.len() - 1] = 1.0;
-        let tangent = bordered(&derivative, like).lu().solve(&right).ok_or(OrbitError::Singular)?;
+        let decomposed = bordered(&derivative, like).lu();
+        let tangent = decomposed.solve(&right).ok_or(OrbitError::Singular)?;
         let length = tangent.norm();
-        if length.is_finite() && length > 0.0 { Ok(tangent / length) } else { Err(OrbitError::Singular) }
+        if !(length.is_finite() && length > 0.0) {
+            return Err(OrbitError::Singular);
+        }
+        Ok((tangent / length, decomposed.determinant().signum()))
     }
 }
 

@@ -9,7 +9,7 @@ use nalgebra::{Complex, DVector};
 use super::arclength::Family;
 use super::bracket::root;
 use super::branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course, MOST_EFFORT};
-use super::plane::Axis;
+use super::{pace, plane::Axis};
 use crate::dynamics::integration::measures::Observer;
 use crate::dynamics::orbits::floquet::eigenvector;
 use crate::dynamics::orbits::{Instability, OrbitError};
@@ -17,6 +17,9 @@ use crate::model::ReducedSystem;
 
 /// Steps in units of the gap and of the parameter's range: first, shortest, longest.
 const STEPS: (f64, f64, f64) = (2e-3, 1e-6, 0.02);
+/// Growth of the step from one to the next at most, and the part of what is allowed that is tried where multipliers turn.
+const GROWTH: f64 = 1.5;
+const AHEAD: f64 = 0.9;
 /// Smallest cosine between the tangents at the ends of a step.
 const STRAIGHT: f64 = 0.97;
 /// Accuracy of a located point, in the same units.
@@ -45,8 +48,8 @@ pub fn follow_branch(system: &ReducedSystem, state: &[f64], course: &Course) -> 
     let start = family.place(family.solver.state(), [value]);
     let mut along = DVector::zeros(start.len());
     along[start.len() - 1] = if course.upwards { 1.0 } else { -1.0 };
-    let tangent = family.tangent(&start, &along)?;
-    Follower::new(family, course).run(start, tangent)
+    let heading = family.tangent(&start, &along)?;
+    Follower::new(family, course).run(start, heading)
 }
 
 /// Follows the branch of twice the period that leaves `origin`, a period doubling on a branch of `course`.
@@ -76,10 +79,10 @@ pub fn follow_doubled(
     for offset in OFFSETS {
         let guess = &start + &direction * offset;
         match family.correct(&guess, &direction).and_then(|place| {
-            let tangent = family.tangent(&place, &direction)?;
-            Ok((place, tangent))
+            let heading = family.tangent(&place, &direction)?;
+            Ok((place, heading))
         }) {
-            Ok((place, tangent)) => return Follower::new(family, &doubled).run(place, tangent),
+            Ok((place, heading)) => return Follower::new(family, &doubled).run(place, heading),
             Err(error) => reason = error,
         }
     }
@@ -95,9 +98,18 @@ fn axis(course: &Course) -> Axis {
 struct Station {
     place: DVector<f64>,
     tangent: DVector<f64>,
+    /// Sign of the determinant that [`Family::tangent`] tells.
+    orientation: f64,
+    /// Those of [`pace::phases`].
+    phases: Vec<f64>,
     point: BranchPoint,
     /// What half the period does to the state, scaled; zero where the orbit has half the period.
     halving: Option<DVector<f64>>,
+}
+
+/// Whether the orbit of half the period lies between two stations.
+fn crosses_half(here: &Station, next: &Station) -> bool {
+    here.halving.as_ref().zip(next.halving.as_ref()).is_some_and(|(before, after)| before.dot(after) <= 0.0)
 }
 
 struct Follower {
@@ -113,8 +125,8 @@ impl Follower {
         Self { family, course: *course, branch }
     }
 
-    fn run(mut self, start: DVector<f64>, tangent: DVector<f64>) -> Result<Branch, OrbitError> {
-        let mut here = self.read(start, tangent)?;
+    fn run(mut self, start: DVector<f64>, heading: (DVector<f64>, f64)) -> Result<Branch, OrbitError> {
+        let mut here = self.read(start, heading)?;
         let phases = self.phases(&here.place.clone())?;
         self.branch.points.push(here.point.clone());
         let mut step = STEPS.0;
@@ -123,7 +135,7 @@ impl Follower {
                 self.branch.end = BranchEnd::Effort;
                 break;
             }
-            let (moved, next, border) = match self.advance_within(&here, step) {
+            let (strays, next, border) = match self.advance_within(&here, step) {
                 Err(_) if step > STEPS.1 => {
                     step *= 0.5;
                     continue;
@@ -134,8 +146,14 @@ impl Follower {
                 }
                 Ok(next) => next,
             };
+            let turns = (&here.phases[..], &next.phases[..]);
+            let turn = pace::turn(turns, &here.point.multipliers);
+            let growth = (AHEAD / pace::turn(turns, &next.point.multipliers)).min(GROWTH);
             // A correction as long as the step, or a sharp turn, may belong to another branch.
-            let doubtful = moved > 0.5 * step || next.tangent.dot(&here.tangent) < STRAIGHT;
+            let doubtful = strays
+                || turn > 1.0
+                || next.tangent.dot(&here.tangent) < STRAIGHT
+                || next.orientation != here.orientation && !crosses_half(&here, &next);
             if doubtful && step > STEPS.1 {
                 step *= 0.5;
                 continue;
@@ -161,30 +179,34 @@ impl Follower {
                 break;
             }
             here = next;
-            step = (1.5 * step).min(STEPS.2);
+            step = (growth * step).min(STEPS.2);
         }
         self.branch.effort = self.family.effort();
         Ok(self.branch)
     }
 
-    /// The station a step beyond `here` along its tangent, and how far the correction moved the prediction.
-    fn advance(&mut self, here: &Station, step: f64) -> Result<(f64, Station), OrbitError> {
+    /// The station a step beyond `here` along its tangent, and whether it is too far from where that leads.
+    fn advance(&mut self, here: &Station, step: f64) -> Result<(bool, Station), OrbitError> {
         let guess = &here.place + &here.tangent * step;
         let place = self.family.correct(&guess, &here.tangent)?;
-        let moved = (&place - &guess).norm();
-        let tangent = self.family.tangent(&place, &here.tangent)?;
-        Ok((moved, self.read(place, tangent)?))
+        let strays = self.strays(&guess, &place, step);
+        let heading = self.family.tangent(&place, &here.tangent)?;
+        Ok((strays, self.read(place, heading)?))
+    }
+
+    fn strays(&self, predicted: &DVector<f64>, place: &DVector<f64>, step: f64) -> bool {
+        (place - predicted).norm() > 0.5 * step || pace::surprises(predicted, place, self.family.dimension())
     }
 
     /// As [`Self::advance`], but not beyond the course's range; also whether its border is reached.
-    fn advance_within(&mut self, here: &Station, step: f64) -> Result<(f64, Station, bool), OrbitError> {
+    fn advance_within(&mut self, here: &Station, step: f64) -> Result<(bool, Station, bool), OrbitError> {
         let (low, high) = self.course.range;
         let outside = |value: f64| value < low || value > high;
         let mut target = self.family.value(&(&here.place + &here.tangent * step));
         if !outside(target) {
-            let (moved, next) = self.advance(here, step)?;
+            let (strays, next) = self.advance(here, step)?;
             if !outside(next.point.value) {
-                return Ok((moved, next, false));
+                return Ok((strays, next, false));
             }
             target = next.point.value;
         }
@@ -195,10 +217,10 @@ impl Follower {
         normal[guess.len() - 1] = 1.0;
         let guess = self.family.with_value(guess, 0, value);
         let place = self.family.correct(&guess, &normal)?;
-        let tangent = self.family.tangent(&place, &here.tangent)?;
-        let mut next = self.read(place, tangent)?;
+        let heading = self.family.tangent(&place, &here.tangent)?;
+        let mut next = self.read(place, heading)?;
         next.point.value = value;
-        Ok(((&next.place - guess).norm(), next, true))
+        Ok((self.strays(&guess, &next.place, step), next, true))
     }
 
     /// The stroboscopic states of the orbit at `place`, that one first, with the same parameter.
@@ -228,7 +250,11 @@ impl Follower {
     }
 
     /// Measures the orbit at `place`.
-    fn read(&mut self, place: DVector<f64>, tangent: DVector<f64>) -> Result<Station, OrbitError> {
+    fn read(
+        &mut self,
+        place: DVector<f64>,
+        (tangent, orientation): (DVector<f64>, f64),
+    ) -> Result<Station, OrbitError> {
         let Family { solver, system, periods, .. } = &mut self.family;
         let beta = system.parameters.beta;
         let state = solver.state().to_vec();
@@ -246,7 +272,9 @@ impl Follower {
         let measures = observer.measures(system.parameters.kappa).unwrap_or_default();
         let value = self.family.value(&place);
         let state = self.family.state(&place);
-        Ok(Station { place, tangent, point: BranchPoint { value, state, multipliers, measures }, halving })
+        let point = BranchPoint { value, state, multipliers, measures };
+        let phases = pace::phases(&self.family.system, self.family.periods);
+        Ok(Station { place, tangent, orientation, phases, point, halving })
     }
 
     /// The parameter where the orbit has half its period between two stations, if there.

@@ -4,7 +4,7 @@
 //!
 //! * [`boundary`] finds where the motion that grows out of rest loses its stability, [`forced`] goes on past that.
 //! * [`plane`] has the parameters that change, `arclength` the orbits over them, `bracket` the root between two places.
-//! * [`continuation`] follows periodic motions in any one parameter, along a [`branch`].
+//! * [`continuation`] follows periodic motions in any one parameter, along a [`branch`], at the `pace` that resonances ask for.
 //! * [`curves`] follows their bifurcations in any two; [`tongue`] is the curve about a resonance.
 //!
 //! Built on `orbits` and `integration`; it does not know of `attractors`.
@@ -16,6 +16,7 @@ pub mod branch;
 pub mod continuation;
 pub mod curves;
 pub mod forced;
+mod pace;
 pub mod plane;
 pub mod tongue;
 

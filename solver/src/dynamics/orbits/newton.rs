@@ -207,28 +207,7 @@ impl OrbitSolver {
     /// # Errors
     /// As [`Self::find`]; the solver's state is then meaningless.
     pub fn follow(&mut self, guess: &[f64], beta: f64, periods: usize) -> Result<Convergence, OrbitError> {
-        self.begin(guess)?;
-        let mut iterations = 0;
-        let mut before = f64::INFINITY;
-        while iterations < MAX_WARM_ITERATIONS {
-            iterations += 1;
-            let error = self.evaluate(beta, periods)?;
-            if error > 1.0 {
-                self.map.refine()?;
-                iterations -= 1;
-                continue;
-            }
-            let correction = self.correction()?;
-            self.add(&correction, 1.0);
-            let size = self.largest(&correction);
-            let stalled =
-                self.residual <= WARM_STALLED.0 && size <= STALLED.2 && size > WARM_STALLED.1 * before;
-            if size <= SETTLED || stalled {
-                return Ok(Convergence { iterations, residual: self.residual });
-            }
-            before = size;
-        }
-        Err(OrbitError::NoConvergence { iterations, residual: self.residual })
+        self.approach(guess, beta, periods, false)
     }
 
     /// As [`Self::follow`], but what stays in the solver is the state alone: a derivative serves for as long as corrections shrink
@@ -242,6 +221,17 @@ impl OrbitSolver {
         beta: f64,
         periods: usize,
     ) -> Result<Convergence, OrbitError> {
+        self.approach(guess, beta, periods, true)
+    }
+
+    /// Undamped corrections from a good guess; with `chords`, a derivative serves for as long as they shrink fast.
+    fn approach(
+        &mut self,
+        guess: &[f64],
+        beta: f64,
+        periods: usize,
+        chords: bool,
+    ) -> Result<Convergence, OrbitError> {
         self.begin(guess)?;
         let (mut iterations, mut derivatives) = (0, 0);
         let mut sizes = [f64::INFINITY; 2];
@@ -249,7 +239,8 @@ impl OrbitSolver {
             iterations += 1;
             // The first correction says nothing yet about how fast they shrink.
             let [before, size] = sizes;
-            let chord = iterations == 2 || size <= CHORD * before && before.is_finite();
+            let shrinks = iterations == 2 || size <= CHORD * before && before.is_finite();
+            let chord = chords && shrinks;
             let error = if chord {
                 self.evaluate_image(beta, periods)?
             } else {
