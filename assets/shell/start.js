@@ -176,7 +176,7 @@ async function start() {
   addEventListener("error", stopped);
   addEventListener("unhandledrejection", stopped);
   element("canvas").addEventListener("webglcontextlost", () => {
-    fail(STOPPED, "The graphics card or its driver gave the page up.");
+    fail(STOPPED, "The graphics card or its driver gave up on the page.");
   });
   const app = await import(element("module").href);
   await app.default({ module_or_path: element("wasm").href });

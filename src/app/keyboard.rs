@@ -30,7 +30,8 @@ const AROUND: f32 = 12.0;
 
 /// Turns keys into commands, unless a text is being typed or something lies over the page, which have keys of their own.
 pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool, commands: &mut Commands) {
-    let covered = shortcuts::is_open(context) || greeting::is_open(context) || Popup::is_any_open(context);
+    let covered =
+        shortcuts::SHEET.is_open(context) || greeting::SHEET.is_open(context) || Popup::is_any_open(context);
     if context.text_edit_focused() || covered {
         return;
     }
@@ -92,7 +93,7 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
         help = pressed(Key::Questionmark);
     });
     if help {
-        shortcuts::open(context);
+        shortcuts::SHEET.open(context);
     }
 }
 

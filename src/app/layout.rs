@@ -175,6 +175,34 @@ mod tests {
         }
     }
 
+    #[test]
+    fn on_a_phone_what_the_motion_is_stays_in_view_above_all_sliders() {
+        for tab in ["explore", "live", "stability", "sweep", "design", "paper"] {
+            let mut desk =
+                Desk::new(360.0, 760.0, &format!(r#"{{"scenario":{{"t_end":100}},"tab":"{tab}"}}"#));
+            desk.work(5);
+            let answer = |desk: &Desk| {
+                let said = |node: &&Node| node.label.contains(" rms") && node.label.contains("·");
+                let found = desk.harness.nodes.iter().filter(said).map(|node| node.bounds);
+                found.min_by(|a, b| a.top().total_cmp(&b.top()))
+            };
+            let slider = |desk: &Desk| desk.harness.find(egui::Role::Slider, "").bounds;
+            let before = answer(&desk).expect("an answer");
+            assert!(before.bottom() < slider(&desk).top() && before.bottom() < 500.0, "{tab}: {before}");
+            let turn = egui::Event::MouseWheel {
+                unit: egui::MouseWheelUnit::Point,
+                delta: egui::vec2(0.0, -300.0),
+                phase: egui::TouchPhase::Move,
+                modifiers: egui::Modifiers::NONE,
+                source: egui::MouseWheelSource::Wheel,
+            };
+            let at = egui::pos2(180.0, 700.0);
+            desk.harness.frame(vec![egui::Event::PointerMoved(at), turn], |ui| desk.app.ui(ui));
+            desk.rest(20);
+            assert_eq!(answer(&desk), Some(before), "{tab}");
+        }
+    }
+
     /// A finger that comes down and goes along these places, one a picture.
     fn swipe(desk: &mut Desk, path: &[egui::Pos2]) {
         use egui::{Event, Modifiers, PointerButton, TouchDeviceId, TouchId, TouchPhase};

@@ -422,7 +422,7 @@ mod tests {
         assert_eq!(look("old.csv", b"\xff\xfe1\0,\0", 6), Ok(()));
         app.open_file("sound.wav", Ok(b"RIFF\0\0".to_vec()));
         let notice = app.notice.take().expect("a notice");
-        assert!(notice.starts_with("sound.wav could not be opened: it is no text"), "{notice}");
+        assert!(notice.starts_with("sound.wav could not be opened: it is not text"), "{notice}");
         assert_eq!(app.view, before);
     }
 

@@ -122,7 +122,7 @@ impl Axis {
         } else if tick.step < MINOR {
             String::new()
         } else {
-            number::typographic(&number::round_significant(from_log(tick.at), 3).to_string())
+            number::typographic(&number::six_digits(number::round_significant(from_log(tick.at), 3)))
         }
     }
 }

@@ -149,6 +149,6 @@ fn a_lost_graphics_context_is_told() {
     let mut page = Page::open(1440, 900, Theme::Dark);
     page.expects_errors();
     page.script("document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()");
-    failed(&mut page, "The graphics card or its driver gave the page up");
+    failed(&mut page, "The graphics card or its driver gave up on the page");
     page.close();
 }

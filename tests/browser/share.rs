@@ -197,7 +197,7 @@ fn a_file_that_cannot_be_opened_is_refused_by_its_beginning() {
          Blob.prototype.arrayBuffer = function () { window.read.push(this.size); return all.call(this); }",
     );
     for (name, fill, part) in [
-        ("sound.wav", 0, "it is no text: byte 1 is no character of one"),
+        ("sound.wav", 0, "it is not text: byte 1 belongs to no character"),
         ("one.csv", i32::from(b'1'), "line 1 is longer than 65536 characters"),
     ] {
         page.script_with(

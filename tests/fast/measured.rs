@@ -107,7 +107,7 @@ fn a_million_rows_are_read_and_thinned_in_slices_in_well_under_a_second() {
 #[test]
 fn what_is_no_table_of_text_is_refused_before_it_is_read() {
     let message = |bytes: &[u8]| detect(bytes).expect_err("no table").to_string();
-    assert_eq!(message(b"0,1\n\0\0\0"), "it is no text: byte 5 is no character of one");
+    assert_eq!(message(b"0,1\n\0\0\0"), "it is not text: byte 5 belongs to no character");
     let mut long = vec![b'1'; 50 << 20];
     let begin = Instant::now();
     assert_eq!(message(&long), "line 1 is longer than 65536 characters");

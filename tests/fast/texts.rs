@@ -172,7 +172,7 @@ fn the_early_texts_are_whole_and_those_of_the_catalogues() {
         })
     });
     // These can be said only once the page runs.
-    let late = ["The graphics card or its driver gave the page up.", "Text typed into the picture"];
+    let late = ["The graphics card or its driver gave up on the page.", "Text typed into the picture"];
     let said: Vec<String> = said.filter(|text| !late.contains(&text.as_str())).collect();
     assert!(said.len() > 4, "{said:?}");
     let early = script.split_once("const EARLY = {").expect("early texts").1;

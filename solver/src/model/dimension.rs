@@ -101,7 +101,7 @@ numbers! {
     }
     Capacitance capacitance ["F"] = 5.9531e-8,
     "Capacitance C_eq of the ceramic." {
-        symbol: "C_eq", name: "Capacity", title: "capacitance", part: Part::Circuit,
+        symbol: "C_eq", name: "Capacitance", title: "capacitance", part: Part::Circuit,
         range: POSITIVE, usual: (1e-11, 1e-5), scale: Scale::Logarithmic, shown: ("nF", 1e9),
     }
     /// Infinite, and null in JSON, for an open circuit.

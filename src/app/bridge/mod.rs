@@ -144,7 +144,7 @@ impl Page {
         let keeper = if embedded { storage::Keeper::absent() } else { storage::Keeper::open() };
         let is_first_visit = !embedded && keeper.stored().is_none() && address::fragment().is_empty();
         if is_first_visit {
-            crate::app::panels::greeting::open(context);
+            crate::app::panels::greeting::SHEET.open(context);
         }
         let crew = crew(context.clone());
         let mut app = App::new(context, keeper.stored(), Rc::clone(&crew));

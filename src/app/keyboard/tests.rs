@@ -134,5 +134,5 @@ fn no_key_is_a_shortcut_while_a_number_is_typed() {
         desk.press(key, Modifiers::NONE);
     }
     assert_eq!(desk.app.view, before);
-    assert!(!super::shortcuts::is_open(&desk.harness.context));
+    assert!(!super::shortcuts::SHEET.is_open(&desk.harness.context));
 }

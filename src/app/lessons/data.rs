@@ -68,7 +68,7 @@ impl Lesson {
         let value: Value = serde_json::from_str(json).map_err(|error| {
             let place: [(&str, &dyn crate::sentence::Say); 2] =
                 [("line", &error.line()), ("column", &error.column())];
-            said("it is no JSON from line {line}, column {column} on", &place)
+            said("it is not JSON from line {line}, column {column} on", &place)
         })?;
         let part = Part { value: &value, at: String::new() };
         part.knows(&["title", "summary", "minutes", "picture", "steps"])?;

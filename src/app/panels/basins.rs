@@ -140,9 +140,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, basin: &BasinStudy, attractors: 
                 (say(&attractor.cell.motion), place)
             })
             .collect();
-        for (name, place) in &places {
-            plot_style::special_point(plot, name, *place);
-        }
+        plot_style::special_points(plot, &places);
     });
     let drag = plot_style::operating_point(ui, &shown, tr("Start"), here);
     if let Some([q, rate]) = drag.moved {

@@ -104,9 +104,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
                 for (kind, name, line) in &lines {
                     plot_style::series(plot, *kind, name, line);
                 }
-                for (name, place) in &special {
-                    plot_style::special_point(plot, name, *place);
-                }
+                plot_style::special_points(plot, &special);
             },
         );
     let parameters = context.view.scenario.parameters;

@@ -30,8 +30,8 @@ fn list(context: &mut Context<'_>, ui: &mut Ui) {
     ui.spacing_mut().item_spacing.y = 6.0;
     for piece in &verdict.rests_on {
         let (sign, colour) = match piece.agrees {
-            Some(true) => (tr("agrees"), tokens.ok),
-            Some(false) => (tr("contradicts"), tokens.danger),
+            Some(true) => (tr("in favour"), tokens.ok),
+            Some(false) => (tr("against"), tokens.danger),
             None => (tr("open"), tokens.text_weak),
         };
         row(ui, title(piece.source()), sign, colour, &say(&piece.shows));

@@ -1,6 +1,6 @@
 //! What the page is, for whoever sees it for the first time: the device with its parts named, one sentence, three doors.
 
-use egui::{Button, Context as Egui, Id, Modal, RichText, Ui, vec2};
+use egui::{Button, RichText, Ui, vec2};
 
 use super::{Context, beam};
 use crate::app::command::{Command, Commands};
@@ -8,50 +8,26 @@ use crate::app::lessons::LessonId;
 use crate::app::lessons::course::Action;
 use crate::app::text::tr;
 use crate::app::view::Tab;
+use crate::app::widgets::Overlay;
 use crate::app::{fonts, theme};
 
-/// Width of the greeting, and of a door where they stand side by side, points.
-const WIDTH: f32 = 640.0;
+/// The greeting.
+pub(in crate::app) const SHEET: Overlay = Overlay::new("greeting", 640.0);
+
+/// Width of a door where they stand side by side, points.
 const DOOR: f32 = 200.0;
-/// Height of a door.
+/// Height of a door, and of one that stands beside others, where its promise may take two rows.
 const DOOR_HEIGHT: f32 = 52.0;
+const HIGH_DOOR: f32 = 68.0;
 /// Share of the page's height that the picture takes at most, and its usual height.
 const SHARE: f32 = 0.36;
 const PICTURE: f32 = 250.0;
 
-fn id() -> Id {
-    Id::unique("greeting")
-}
-
-/// Whether it is shown.
-pub(in crate::app) fn is_open(context: &Egui) -> bool {
-    context.data(|data| data.get_temp(id())).unwrap_or(false)
-}
-
-/// Shows it.
-pub(in crate::app) fn open(context: &Egui) {
-    set(context, true);
-}
-
-fn set(context: &Egui, open: bool) {
-    context.data_mut(|data| data.insert_temp(id(), open));
-    context.request_repaint();
-}
-
 /// Draws it over the page until a door is taken, Escape, or a click beside it.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &Ui) {
-    if !is_open(ui.ctx()) {
-        return;
-    }
     let tokens = theme::tokens(ui);
-    let page = ui.ctx().content_rect().size();
-    let frame = egui::Frame::popup(ui.style()).inner_margin(20);
-    let shown = Modal::new(id()).frame(frame).show(ui.ctx(), |ui| {
-        ui.set_width(WIDTH.min(page.x - 64.0));
-        let room = page.y - 90.0;
-        // In a modal it would shrink to what its first picture had.
-        let scroll = egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room);
-        scroll.show(ui, |ui| {
+    SHEET.show(ui, |ui| {
+        Overlay::scrolled(ui, 90.0, |ui| {
             let title = RichText::new("Harvester Lab").font(fonts::semibold(theme::size::HEADING));
             ui.label(title.color(tokens.text_strong));
             let sentence = tr(
@@ -60,14 +36,12 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &Ui) {
             );
             ui.add(egui::Label::new(RichText::new(sentence).color(tokens.text)).wrap());
             ui.add_space(8.0);
-            beam::picture(context, ui, PICTURE.min(SHARE * page.y), true);
+            let height = ui.ctx().content_rect().height();
+            beam::picture(context, ui, PICTURE.min(SHARE * height), true);
             ui.add_space(10.0);
             doors(context.commands, ui)
         })
     });
-    if shown.inner.inner || shown.should_close() {
-        set(ui.ctx(), false);
-    }
 }
 
 /// Where to go from here, and whether one of the doors was taken.
@@ -84,10 +58,11 @@ fn doors(commands: &mut Commands, ui: &mut Ui) -> bool {
     } else {
         ui.available_width()
     };
+    let height = if beside { HIGH_DOOR } else { DOOR_HEIGHT };
     let show = |ui: &mut Ui| {
         for (name, promise, command) in doors {
             let text = format!("{name}\n{promise}");
-            if ui.add_sized(vec2(width, DOOR_HEIGHT), Button::new(text).wrap()).clicked() {
+            if ui.add_sized(vec2(width, height), Button::new(text).wrap()).clicked() {
                 commands.push(command);
                 taken = true;
             }
@@ -125,12 +100,12 @@ mod tests {
             ] {
                 let mut desk = Desk::new(width, height, r#"{"tab":"explore"}"#);
                 desk.work(3);
-                assert!(!is_open(&desk.harness.context));
-                open(&desk.harness.context);
+                assert!(!SHEET.is_open(&desk.harness.context));
+                SHEET.open(&desk.harness.context);
                 desk.rest(3);
                 press(&mut desk, door);
                 desk.rest(2);
-                assert!(!is_open(&desk.harness.context));
+                assert!(!SHEET.is_open(&desk.harness.context));
                 assert_eq!((desk.app.view.lesson, desk.app.view.tab), (lesson, tab), "{door}");
             }
         }
@@ -144,12 +119,12 @@ mod tests {
         desk.rest(2);
         press(&mut desk, "What is this?");
         desk.rest(2);
-        assert!(is_open(&desk.harness.context));
+        assert!(SHEET.is_open(&desk.harness.context));
         // No key is a shortcut meanwhile.
         desk.press(Key::Num2, Modifiers::NONE);
         assert_eq!(desk.app.view.tab, Tab::Explore);
         desk.press(Key::Escape, Modifiers::NONE);
         desk.rest(2);
-        assert!(!is_open(&desk.harness.context));
+        assert!(!SHEET.is_open(&desk.harness.context));
     }
 }

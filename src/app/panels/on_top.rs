@@ -3,7 +3,7 @@
 use egui::{Frame, Id, Margin, Panel, Ui};
 
 use super::spec::Place;
-use super::{Context, figure_boundaries, figure_panels, list, plots};
+use super::{Context, figure_boundaries, figure_panels, list, plots, verdict};
 use crate::app::command::Command;
 use crate::app::figures;
 use crate::app::theme;
@@ -56,7 +56,15 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             context.commands.push(Command::Enlarge(panels.get(other).copied()));
         }
     });
-    context.on_top = Some(shown.response.rect);
+    let mut rect = shown.response.rect;
+    // Whatever is moved beneath: what comes of it.
+    if context.view.shaken().is_none() {
+        let margin = Margin { left: 14, right: 14, top: 6, bottom: 0 };
+        let panel = Panel::top("answer on top").resizable(false).show_separator_line(false);
+        let frame = Frame::new().fill(theme::tokens(ui).page).inner_margin(margin);
+        rect = rect.union(panel.frame(frame).show(ui, |ui| verdict::row(context, ui)).response.rect);
+    }
+    context.on_top = Some(rect);
 }
 
 /// Scrolls what is beneath by the wheel over the plot, or by a finger that came down on it and drags nothing of it.

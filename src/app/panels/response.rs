@@ -102,7 +102,7 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
     super::say_cut(ui, branches.iter().any(|branch| branch.cut));
     let lines: Vec<(Series, String, Vec<PlotPoint>)> =
         branches.iter().flat_map(|curve| lines(curve, &measure)).collect();
-    let marks: Vec<(String, [f64; 2])> = branches.iter().flat_map(|curve| marks(curve, &measure)).collect();
+    let marks: Vec<(String, PlotPoint)> = branches.iter().flat_map(|curve| marks(curve, &measure)).collect();
     let ways = [Direction::Up, Direction::Down].map(|direction| reached(study, direction, &measure, settled));
     let open = orbit_diagram::both(|direction| reached(study, direction, &measure, |point| !settled(point)));
     let (x, y) = (facts::axis(study.question().parameter.fact()), measure.axis());
@@ -122,9 +122,7 @@ fn curves(context: &mut Context<'_>, ui: &mut Ui) {
             plot_style::points(plot, Series::Down, tr("downwards"), &ways[1]);
             plot_style::points(plot, Series::Up, tr("upwards"), &ways[0]);
             plot_style::points(plot, Series::Unsettled, tr("not settled"), &open);
-            for (name, place) in &marks {
-                plot_style::special_point(plot, name, (*place).into());
-            }
+            plot_style::special_points(plot, &marks);
         });
     orbit_diagram::go_where_clicked(context, &response, study);
 }
@@ -168,15 +166,15 @@ fn lines(curve: &ResponseCurve, measure: &Measure) -> Vec<(Series, String, Vec<P
 }
 
 /// Short names of the bifurcations, beside where they are.
-fn marks(curve: &ResponseCurve, measure: &Measure) -> Vec<(String, [f64; 2])> {
+fn marks(curve: &ResponseCurve, measure: &Measure) -> Vec<(String, PlotPoint)> {
     let name = |kind| match kind {
         Instability::Fold => tr("fold"),
-        Instability::PeriodDoubling => "PD",
-        Instability::NeimarkSacker => "NS",
+        Instability::PeriodDoubling => tr("period doubling"),
+        Instability::NeimarkSacker => tr("Neimark–Sacker (torus)"),
     };
     let place = |change: &crate::questions::response::Change| {
         let y = measure.values(&change.point.measures).first().copied().unwrap_or_default();
-        (name(change.kind).to_owned(), [change.point.value, y])
+        (name(change.kind).to_owned(), PlotPoint::new(change.point.value, y))
     };
     curve.changes.iter().map(place).collect()
 }

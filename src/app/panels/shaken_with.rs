@@ -12,6 +12,7 @@ use crate::app::theme;
 use crate::app::view::View;
 use crate::app::view::design::Page;
 use crate::app::view::shake::ShakenBy;
+use crate::app::widgets::number::prefix;
 use crate::app::widgets::plot_style::{self, Axis};
 use crate::app::widgets::{Series, legend};
 use crate::export::Pen;
@@ -73,8 +74,11 @@ fn over_level(context: &Context<'_>, ui: &mut Ui) {
         ],
     );
     let x = Axis::new(tr("acceleration, rms"), "a").unit("g").logarithmic();
-    let y = Axis::new(tr("mean power"), "P").unit("W").logarithmic();
-    let place = |level: f64, power: f64| PlotPoint::new(x.coordinate(level), y.coordinate(power));
+    let found = || study.found().flatten().flatten();
+    let powers = found().flat_map(|found| found.own.iter().chain(&found.linear)).map(|of| of.power);
+    let (factor, sign) = prefix(powers.fold(0.0, f64::max));
+    let y = Axis::new(tr("mean power"), "P").unit(format!("{sign}W")).logarithmic();
+    let place = |level: f64, power: f64| PlotPoint::new(x.coordinate(level), y.coordinate(factor * power));
     let (mut own, mut linear, mut bars, mut ended) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for (level, found) in levels(context.view).into_iter().zip(study.found()) {
         let Some(Ok(found)) = found else { continue };
@@ -100,7 +104,7 @@ fn over_level(context: &Context<'_>, ui: &mut Ui) {
     }
     let here = x.coordinate(context.view.design.shake.level);
     let tokens = theme::tokens(ui);
-    plot_style::plot(ui, "power over the level", &x, &y).show(ui, |plot| {
+    plot_style::plot(ui, ("power over the level", sign), &x, &y).show(ui, |plot| {
         plot_style::rule(plot, true, "", here, tokens.ruler, Pen::Line(1.0));
         for bar in &bars {
             plot_style::curve(plot, tr("standard error"), tokens.text_weak, Pen::Line(1.5), bar);

@@ -1,27 +1,27 @@
 //! The list of keys.
 
-use egui::{Context, Id, Modal, RichText, Ui};
+use egui::{RichText, Ui};
 
 use super::greeting;
 use crate::app::text::{marked, tr};
-use crate::app::widgets::{Icon, icon_button};
+use crate::app::widgets::{Icon, Overlay, icon_button};
 use crate::app::{fonts, theme};
 
-/// Width of the list, points.
-const WIDTH: f32 = 420.0;
+/// The list.
+pub(in crate::app) const SHEET: Overlay = Overlay::new("shortcuts", 420.0);
 
 /// Keys and what they do.
 const KEYS: [(&str, &str); 24] = [
     (marked("1 2 3 …"), marked("open a tab")),
-    (marked("Tab, Shift+Tab"), marked("go to the next or last control")),
+    (marked("Tab, Shift+Tab"), marked("go to the next or the previous control")),
     (marked("Enter, Space"), marked("press it")),
     (marked("← →"), marked("move a slider; with Shift in small steps")),
     (marked("Shift + drag"), marked("move a slider finely")),
+    (marked("Page Up, Page Down"), marked("move a slider in large steps")),
+    (marked("Ctrl+← →"), marked("move a slider to its next mark")),
+    (marked("Home, End"), marked("move a slider to its ends")),
+    (marked("Page Up, Page Down"), marked("in a lesson or among the figures: the previous or next one")),
     (marked("Ctrl + wheel"), marked("zoom a plot")),
-    (marked("Page Up, Page Down"), marked("move it in large steps")),
-    (marked("Page Up, Page Down"), marked("in a lesson or among the figures: the last or next one")),
-    (marked("Ctrl+← →"), marked("go to its next mark")),
-    (marked("Home, End"), marked("go to its ends")),
     (marked("← ↑ ↓ →"), marked("move the point in a map")),
     (marked("F"), marked("fill the page with one plot after another")),
     (marked("Shift+F"), marked("fill the screen with the page")),
@@ -38,44 +38,20 @@ const KEYS: [(&str, &str); 24] = [
     (marked("?"), marked("this list")),
 ];
 
-fn id() -> Id {
-    Id::unique("shortcuts")
-}
-
-/// Whether the list is shown.
-pub(in crate::app) fn is_open(context: &Context) -> bool {
-    context.data(|data| data.get_temp(id())).unwrap_or(false)
-}
-
-/// Shows it.
-pub(in crate::app) fn open(context: &Context) {
-    context.data_mut(|data| data.insert_temp(id(), true));
-    context.request_repaint();
-}
-
 /// The button that shows it.
 pub(super) fn button(ui: &mut Ui) {
     if icon_button(ui, Icon::Help, tr("Keys (?)")).clicked() {
-        open(ui.ctx());
+        SHEET.open(ui.ctx());
     }
 }
 
 /// Draws it over the page until Escape, a click or its button.
 pub(in crate::app) fn show(ui: &Ui) {
-    if !is_open(ui.ctx()) {
-        return;
-    }
     let tokens = theme::tokens(ui);
-    let page = ui.ctx().content_rect().size();
-    let frame = egui::Frame::popup(ui.style()).inner_margin(20);
-    let shown = Modal::new(id()).frame(frame).show(ui.ctx(), |ui| {
-        ui.set_width(WIDTH.min(page.x - 64.0));
+    SHEET.show(ui, |ui| {
         let title = RichText::new(tr("Keys")).font(fonts::semibold(theme::size::HEADING));
         ui.label(title.color(tokens.text_strong));
-        let room = page.y - 160.0;
-        // In a modal it would shrink to what its first picture had.
-        let scroll = egui::ScrollArea::vertical().max_height(room).min_scrolled_height(room);
-        scroll.show(ui, |ui| {
+        Overlay::scrolled(ui, 160.0, |ui| {
             egui::Grid::new("keys").num_columns(2).spacing([18.0, 5.0]).show(ui, |ui| {
                 for (keys, effect) in KEYS {
                     ui.label(RichText::new(tr(keys)).color(tokens.text_strong));
@@ -88,13 +64,10 @@ pub(in crate::app) fn show(ui: &Ui) {
         ui.horizontal(|ui| {
             let greet = ui.button(tr("What is this?")).clicked();
             if greet {
-                greeting::open(ui.ctx());
+                greeting::SHEET.open(ui.ctx());
             }
             ui.button(tr("Close")).clicked() || greet
         })
         .inner
     });
-    if shown.inner || shown.should_close() {
-        ui.data_mut(|data| data.insert_temp(id(), false));
-    }
 }

@@ -79,9 +79,14 @@ fn choose_tab(context: &mut Context<'_>, ui: &mut Ui) {
 }
 
 fn status(context: &Context<'_>, ui: &mut Ui, badge: fn(&mut Ui, BadgeKind, &str) -> egui::Response) {
-    let status = match design::shaking::under_way(context) {
-        Some(part) => Status::Computing(part),
-        None => context.session.status(),
+    let status = match (context.session.status(), design::shaking::under_way(context)) {
+        (_, Some(part)) => Status::Computing(part),
+        // What panels have asked for, the one that is least far.
+        (Status::Done, None) => {
+            let parts = context.studies.lanes.progress().map(|(_, part)| part);
+            parts.reduce(f64::min).map_or(Status::Done, Status::Computing)
+        }
+        (status, None) => status,
     };
     match status {
         Status::Done => badge(ui, BadgeKind::Converged, tr("computed")),

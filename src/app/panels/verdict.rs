@@ -94,15 +94,8 @@ fn contents(context: &Context<'_>, ui: &mut Ui) -> Color32 {
         colour = tokens.danger;
         let text = fill("{message}. The last good state stays on the screen.", &[("message", &message)]);
         second.append(&text, 0.0, body(colour));
-    } else if let Some(shown) = context.shown() {
-        let found = context.studies.inspection(&shown.scenario);
-        let verdict = found.filter(|(_, current)| *current).map(|(found, _)| &found.verdict);
-        let reading = Reading::new(shown, context.session.boundaries.as_ref(), verdict);
-        colour = match reading.tone {
-            Tone::Alarming => tokens.danger,
-            Tone::Notable => tokens.warning,
-            Tone::Plain => tokens.ok,
-        };
+    } else if let Some((shown, verdict, reading)) = read(context) {
+        colour = tone(tokens, &reading);
         first.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
         first.append(&format!("  {}", reading.plain), 2.0, body(tokens.text));
         second.append(&in_a_line(&reading.facts), 0.0, body(tokens.text));
@@ -114,6 +107,9 @@ fn contents(context: &Context<'_>, ui: &mut Ui) -> Color32 {
             if open {
                 // Whole, where there is room for all of them.
                 add(&mut rest, text, small(tokens.warning));
+            } else if rows.facts == 1 {
+                // There the first row has room.
+                add(&mut first, text, small(tokens.warning));
             } else {
                 add(&mut second, text, body(tokens.warning));
             }
@@ -141,6 +137,41 @@ fn contents(context: &Context<'_>, ui: &mut Ui) -> Color32 {
     }
     fold.store(ui.ctx());
     colour
+}
+
+/// The motion shown, the verdict on it once that is there, and both in words.
+fn read<'a>(context: &Context<'a>) -> Option<(&'a Shown, Option<&'a Verdict>, Reading)> {
+    let (session, studies) = (context.session, context.studies);
+    let shown = context.shown()?;
+    let found = studies.inspection(&shown.scenario);
+    let verdict = found.filter(|(_, current)| *current).map(|(found, _)| &found.verdict);
+    Some((shown, verdict, Reading::new(shown, session.boundaries.as_ref(), verdict)))
+}
+
+fn tone(tokens: &theme::Tokens, reading: &Reading) -> Color32 {
+    match reading.tone {
+        Tone::Alarming => tokens.danger,
+        Tone::Notable => tokens.warning,
+        Tone::Plain => tokens.ok,
+    }
+}
+
+/// Draws in one row what the motion is and what it gives.
+pub(super) fn row(context: &Context<'_>, ui: &mut Ui) {
+    let tokens = theme::tokens(ui);
+    let format = |font, color| TextFormat { font_id: font, color, ..Default::default() };
+    let mut text = LayoutJob::default();
+    if let Some((_, _, reading)) = read(context) {
+        text.append(
+            &reading.headline,
+            0.0,
+            format(fonts::semibold(theme::size::BODY), tone(tokens, &reading)),
+        );
+        let facts = format!("{SEPARATOR}{}", in_a_line(&reading.facts));
+        text.append(&facts, 0.0, format(fonts::regular(theme::size::BODY), tokens.text));
+    }
+    let width = ui.available_width();
+    paragraph(ui, text, 1, theme::size::BODY, width);
 }
 
 /// Adds a text of its own colour to others of a line.

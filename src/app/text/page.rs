@@ -44,7 +44,7 @@ pub const TEXTS: [&str; 37] = [
     marked("Harvester Lab stopped"),
     marked("Harvester Lab cannot start"),
     marked("This browser cannot show Harvester Lab"),
-    marked("The graphics card or its driver gave the page up."),
+    marked("The graphics card or its driver gave up on the page."),
     marked("Loading"),
     marked("A shaken beam with a magnet at its tip makes electricity."),
     marked(

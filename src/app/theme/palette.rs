@@ -142,7 +142,7 @@ pub const DARK: Tokens = Tokens {
 pub const LIGHT: Tokens = Tokens {
     dark: false,
     contrast: false,
-    page: rgb(0xeb_eff3),
+    page: rgb(0xe3_e8ee),
     bar: rgb(0xfb_fcfd),
     card: rgb(0xff_ffff),
     inset: rgb(0xf3_f6f9),

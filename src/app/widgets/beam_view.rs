@@ -171,8 +171,14 @@ impl<'a> BeamView<'a> {
         let font = fonts::regular(theme::size::BODY);
         let line = Stroke::new(1.0, tokens.ruler);
         let rect = painter.clip_rect();
+        // Lines end at the names, and no name leaves the picture or stands on the foot.
         let name = |at: Pos2, align: Align2, text: &str| {
-            painter.text(at, align, text, font.clone(), tokens.text_strong);
+            let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), tokens.text_strong);
+            let place = align.anchor_size(at, galley.size());
+            let left = place.left().min(rect.right() - 6.0 - place.width()).max(wall.right() + 6.0);
+            let place = place.translate(vec2(left - place.left(), 0.0));
+            painter.rect_filled(place.expand2(vec2(3.0, 0.0)), CornerRadius::same(2), tokens.inset);
+            painter.galley(place.min, galley, tokens.text_strong);
         };
         // The foot, with an arrow for what is done to it.
         let arrow = Stroke::new(2.0, tokens.exact);
@@ -184,11 +190,9 @@ impl<'a> BeamView<'a> {
         }
         name(pos2(wall.right() + 8.0, wall.top() + 2.0), Align2::LEFT_CENTER, tr("shaken foot"));
         // The beam, above it.
-        let above = pos2(beam.x, rect.top() + 30.0);
+        let above = pos2(beam.x, wall.top().max(rect.top()) + 32.0);
         painter.line_segment([above, beam], line);
         name(above, Align2::CENTER_BOTTOM, tr("beam with a layer of ceramic"));
-        // The magnets, beside the fixed one.
-        name(fixed.left_center() - vec2(8.0, 0.0), Align2::RIGHT_CENTER, tr("magnets, which repel"));
         // The load, on two wires from the ceramic.
         let load = Rect::from_center_size(pos2(beam.x, rect.bottom() - 18.0), vec2(34.0, 12.0));
         for (end, down) in [(load.left_center(), 12.0), (load.right_center(), -12.0)] {
@@ -197,6 +201,8 @@ impl<'a> BeamView<'a> {
             painter.line_segment([pos2(foot.x, load.top()), end], line);
         }
         painter.rect(load, CornerRadius::same(2), tokens.inset, line, StrokeKind::Middle);
+        // The magnets, beside the fixed one.
+        name(fixed.left_center() - vec2(8.0, 0.0), Align2::RIGHT_CENTER, tr("magnets, which repel"));
         let text = volts.map_or(tr("load").to_owned(), |volts| {
             fill("load: {volts} V", &[("volts", &number::significant(volts, 3))])
         });

@@ -85,7 +85,7 @@ impl Say for MeasuredError {
             Self::Empty => said("the file is empty", &[]),
             Self::Commas => said("its commas may be decimal commas or stand between columns: say which", &[]),
             Self::Binary { place } => {
-                said("it is no text: byte {place} is no character of one", &[("place", place)])
+                said("it is not text: byte {place} belongs to no character", &[("place", place)])
             }
             Self::Large { megabytes } => {
                 said("it is larger than {megabytes} MB", &[("megabytes", megabytes)])

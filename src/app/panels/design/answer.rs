@@ -60,7 +60,7 @@ fn pieces(context: &Context<'_>, study: &HarvestStudy, ui: &Ui) -> Vec<(String, 
     } else {
         tr("open circuit").to_owned()
     };
-    let sign = |hertz: f64| if at_end(study.window(), hertz) { "≥ " } else { "" };
+    let sign = |hertz: f64| if at_end(study.window(), hertz) { "≥\u{a0}" } else { "" };
     let gives = |power: f64, hertz: f64| {
         let power = sign(hertz).to_owned() + &with_unit(power, "W");
         fill("{what} at {hertz} Hz", &[("what", &power), ("hertz", &significant(hertz, 4))])

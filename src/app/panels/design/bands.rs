@@ -12,7 +12,7 @@ use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, tr};
 use crate::app::theme::{self, Tokens};
 use crate::app::view::View;
-use crate::app::widgets::number::{round_significant, significant, with_unit};
+use crate::app::widgets::number::{prefix, round_significant, significant, with_unit};
 use crate::app::widgets::{Card, ParameterSlider, chips, plot_style};
 use crate::export::Pen;
 use crate::questions::design::band::{half_power, total, usable};
@@ -93,7 +93,7 @@ pub(super) fn hertz_list(window: (f64, f64), intervals: &[Interval]) -> String {
         format!("{sign}{}", significant(hertz, 4))
     };
     let text = |band: &Interval| {
-        fill("{from} to {to} Hz", &[("from", &end("≤ ", band.from)), ("to", &end("≥ ", band.to))])
+        fill("{from} to {to} Hz", &[("from", &end("≤\u{a0}", band.from)), ("to", &end("≥\u{a0}", band.to))])
     };
     intervals.iter().map(text).collect::<Vec<_>>().join(", ")
 }
@@ -151,7 +151,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
             let Some(top) = highest(pieces) else { continue };
             let half = if index == 0 { Some(study.linear().half_power) } else { half_power(&powers(pieces)) };
             ui.label(small(name).color(tokens.text));
-            let at_least = |reached: bool| if reached { "≥ " } else { "" };
+            let at_least = |reached: bool| if reached { "≥\u{a0}" } else { "" };
             let shown = format!("{}{}", at_least(at_end(top.frequency)), with_unit(top.measures.power, "W"));
             let peak = ui.label(small(&shown).color(tokens.text_strong));
             peak.on_hover_text(fill("at {hertz} Hz", &[("hertz", &significant(top.frequency, 5))]));
@@ -180,16 +180,18 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// Chooses the power (W) that counts.
 pub(super) fn least_slider(context: &mut Context<'_>, ui: &mut Ui, present: f64) {
-    let mut microwatts = round_significant(1e6 * present, 6);
-    let slider = ParameterSlider::new(tr("Enough is"), "P", &mut microwatts, 0.0..=1e6)
-        .logarithmic_from(1e6 * LEAST)
-        .unit("µW")
+    // None smaller, so that no power at all has a unit as well.
+    let (factor, sign) = prefix(present.max(1e-6));
+    let (mut power, unit) = (round_significant(factor * present, 6), format!("{sign}W"));
+    let slider = ParameterSlider::new(tr("Enough is"), "P", &mut power, 0.0..=factor)
+        .logarithmic_from(factor * LEAST)
+        .unit(&unit)
         .tooltip(tr(
             "Power from which a frequency counts as usable: half of the highest unless you choose it.",
         ))
         .compact();
     if slider.show(ui).changed {
-        context.redesign(|design| design.least = Some(1e-6 * microwatts));
+        context.redesign(|design| design.least = Some(power / factor));
     }
 }
 

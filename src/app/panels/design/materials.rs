@@ -24,7 +24,10 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     Card::new(tr("Ceramics on this device")).hint(&hint).hugging().show(ui, |ui| {
         choices(context, ui);
         ui.add_space(6.0);
-        egui::ScrollArea::horizontal().id_salt("ceramics").show(ui, |ui| table(context, ui));
+        // Its bar says that there is more.
+        let visible = egui::scroll_area::ScrollBarVisibility::AlwaysVisible;
+        let scroll = egui::ScrollArea::horizontal().id_salt("ceramics").scroll_bar_visibility(visible);
+        scroll.show(ui, |ui| table(context, ui));
         ui.add_space(6.0);
         notes(context, ui);
     });

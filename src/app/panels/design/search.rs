@@ -21,10 +21,12 @@ use crate::sentence::Sentence;
 
 /// The cards beside the map.
 pub(super) fn cards(context: &mut Context<'_>, ui: &mut Ui) {
-    Card::new(tr("Varied"))
-        .hint(tr("at the base's amplitude"))
-        .hugging()
-        .show(ui, |ui| varied::sides(context, ui));
+    let held = if context.view.design.holds_acceleration {
+        tr("at the base's acceleration")
+    } else {
+        tr("at the base's amplitude")
+    };
+    Card::new(tr("Varied")).hint(held).hugging().show(ui, |ui| varied::sides(context, ui));
     ui.add_space(grid::GAP);
     Card::new(tr("Search")).hugging().show(ui, |ui| search(context, ui));
     ui.add_space(grid::GAP);

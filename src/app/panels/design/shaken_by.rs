@@ -89,16 +89,17 @@ fn made(context: &Context<'_>, ui: &mut Ui, shake: &mut ShakeView) {
     let name = if shake.by == ShakenBy::Noise { tr("Level, rms") } else { tr("Level, peak") };
     let first = from.min(to);
     ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 20.0;
         slider(ui, name, &mut shake.level, (LEVELS.0.max(1e-4), LEVELS.1.min(10.0)), "g");
+        let longest = (DURATIONS.0.max(0.1 * lasts), DURATIONS.1.min(10.0 * lasts));
+        if slider(ui, tr("Duration"), &mut lasts, longest, "s") {
+            shake.duration = Some(lasts);
+        }
         let usual = (0.05 * first, 50.0 * first);
         let changed =
             slider(ui, tr("From"), &mut from, usual, "Hz") | slider(ui, tr("To"), &mut to, usual, "Hz");
         if changed {
             shake.band = Some((from, to));
-        }
-        let longest = (DURATIONS.0.max(0.1 * lasts), DURATIONS.1.min(10.0 * lasts));
-        if slider(ui, tr("Duration"), &mut lasts, longest, "s") {
-            shake.duration = Some(lasts);
         }
     });
 }
@@ -187,9 +188,9 @@ fn described(context: &Context<'_>, ui: &mut Ui, found: &BaseRecording) {
     };
     let highest = band(context.view).1;
     let limited = if found.is_limited(highest) {
-        fill("Above {highest} Hz everything is taken away.", &[("highest", &short(highest))])
+        fill("Above {highest} Hz everything is filtered out.", &[("highest", &short(highest))])
     } else {
-        tr("Nothing is taken away at high frequencies.").to_owned()
+        tr("Nothing is filtered out at high frequencies.").to_owned()
     };
     ui.add(Label::new(RichText::new(format!("{level} {taken} {limited}")).small().color(weak)).wrap());
 }

@@ -48,8 +48,13 @@ fn unfinished(runs: &Table<ShakenRun>, studies: &Studies) -> Option<(Meant, Stri
     if runs.is_stopped() {
         return Some((Meant::Stopped, tr(STOPPED).to_owned()));
     }
+    done(runs, studies).map(|part| (Meant::Computing, super::super::computing(part)))
+}
+
+/// How far `runs` are, 0 to 1, while they are under way.
+fn done(runs: &Table<ShakenRun>, studies: &Studies) -> Option<f64> {
     let part = studies.lanes.lane::<Table<ShakenRun>>().and_then(Traffic::progress);
-    part.map(|part| (Meant::Computing, super::super::computing(part)))
+    part.filter(|_| !runs.is_stopped())
 }
 
 /// What is said of what was stopped.
@@ -64,8 +69,7 @@ pub(in crate::app::panels) fn summary(context: &Context<'_>) -> Option<ShakeAnsw
 pub(in crate::app::panels) fn under_way(context: &Context<'_>) -> Option<f64> {
     let Context { view, bench, studies, .. } = *context;
     let runs = view.shaken().and_then(|_| in_view(view, bench, studies))?;
-    let part = studies.lanes.lane::<Table<ShakenRun>>().and_then(Traffic::progress);
-    part.filter(|_| !runs.is_stopped())
+    done(runs, studies)
 }
 
 /// Why there is nothing to show yet.

@@ -267,7 +267,7 @@ fn one_sentence_says_what_the_device_gives_over_the_window() {
         " into 7.63 MΩ, ",
         " or more from 1.4",
         " model not valid (sags by ",
-        "; without magnets ≥ ",
+        "; without magnets ≥",
     ] {
         assert!(usual.contains(part), "{usual}: {part}");
     }

@@ -82,7 +82,7 @@ fn table(context: &Context<'_>, ui: &mut Ui) {
         // A grid knows the width of a new row a frame late; until then its numbers would stand over its name.
         ui.allocate_exact_size(egui::vec2(NAME_WIDTH, 0.0), egui::Sense::hover());
         for text in [tr("power"), tr("resonance"), tr("threshold")] {
-            ui.label(RichText::new(text).small().color(tokens.text_weak));
+            ui.add(egui::Label::new(RichText::new(text).small().color(tokens.text_weak)).extend());
         }
         ui.end_row();
         for (dimension, lean) in rows {

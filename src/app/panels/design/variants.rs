@@ -82,7 +82,7 @@ fn numbers(view: &View, design: &Variant, tokens: &Tokens) -> [Cell; 6] {
     };
     let measures = best.measures;
     let at_end = |hertz: f64| super::bands::at_end(design.window, hertz);
-    let sign = |ends: bool| if ends { "≥ " } else { "" };
+    let sign = |ends: bool| if ends { "≥\u{a0}" } else { "" };
     let power = sign(at_end(best.frequency)).to_owned() + &with_unit(measures.power, "W");
     let power = fill("{what} at {hertz} Hz", &[("what", &power), ("hertz", &significant(best.frequency, 4))]);
     let half = half.map_or_else(none, |half| {

@@ -31,7 +31,7 @@ const STEEL_BEAM: Device = Device {
     capacitance: 13e-9,
     resistance: 18e3,
     coupling: 25e-6,
-    base_amplitude: 2.75e-5,
+    base_amplitude: 2.75051e-5,
     frequency: 42.5,
     ceramic_thickness: 0.2e-3,
     loss_tangent: 0.02,

@@ -12,6 +12,10 @@ const NAME_ROW: f32 = 26.0;
 const TRACK_ROW: f32 = 24.0;
 const FIELD: f32 = 84.0;
 const COMPACT_FIELD: f32 = 78.0;
+/// Part of a compact row that the field takes at least where there is a unit, and the distance of the track from the symbol,
+/// which a handle at its beginning must not touch, points.
+const ALIGNED: f32 = 0.3;
+const APART: f32 = 9.0;
 
 /// Where the parts of the control go.
 pub(super) struct Rows {
@@ -47,13 +51,16 @@ impl Rows {
             (false, false) => FIELD + 8.0 + unit.size().x,
         };
         let width = width.max(170.0);
+        // Tracks under each other end alike, whatever their units are.
+        let aligned = if needs.compact && !needs.unit.is_empty() { ALIGNED * width } else { 0.0 };
+        let field = field.max(aligned);
         if needs.compact {
             let (all, _) = ui.allocate_exact_size(vec2(width, NAME_ROW), Sense::hover());
             let split = all.left() + 0.38 * width;
             let field = Rect::from_min_max(pos2(all.right() - field, all.top()), all.max);
             let reset = Rect::from_center_size(pos2(field.left() - 10.0, all.center().y), vec2(18.0, 22.0));
             let track =
-                Rect::from_min_max(pos2(split + 4.0, all.top()), pos2(reset.left() - 1.0, all.bottom()));
+                Rect::from_min_max(pos2(split + APART, all.top()), pos2(reset.left() - 1.0, all.bottom()));
             let name = Rect::from_min_max(all.min, pos2(split, all.bottom()));
             return Self { all, name, symbol: split, reset, field, track, secondary: None };
         }

@@ -236,32 +236,65 @@ pub fn label(plot: &mut PlotUi<'_>, text: &str, place: [f64; 2], colour: egui::C
 
 /// A place of its own, with its name beside it.
 pub fn special_point(plot: &mut PlotUi<'_>, name: &str, place: PlotPoint) {
+    special_points(plot, &[(name, place)]);
+}
+
+/// Such places, each with its name where that meets neither another name nor another place: the rest tell theirs on touch.
+pub fn special_points(plot: &mut PlotUi<'_>, all: &[(impl AsRef<str>, PlotPoint)]) {
     let tokens = theme::tokens_in(plot.ctx());
-    recorder::draw(plot, &mut || Layer::Special { name: name.to_owned(), place: [place.x, place.y] });
     let font = fonts::regular(theme::size::SMALL + 0.5);
-    let spaced = format!("  {name}  ");
-    let layout = |fonts: &mut egui::epaint::text::FontsView<'_>| {
-        fonts.layout_no_wrap(spaced.clone(), font.clone(), tokens.text_strong).size()
-    };
-    let size = plot.ctx().fonts_mut(layout);
-    let anchor = anchor_with_room(plot.screen_from_plot(place), size, *plot.transform().frame());
-    let behind = tokens.card.gamma_multiply(BEHIND);
-    let rich = egui::RichText::new(spaced).font(font).color(tokens.text_strong).background_color(behind);
-    let text = Text::new("", place, rich).color(tokens.text_strong);
-    plot.text(text.anchor(anchor).allow_hover(false));
-    // On a map any colour may be behind it.
-    for (radius, colour) in [(7.0, tokens.card), (5.0, tokens.text_strong)] {
-        let mark = Points::new(name, vec![[place.x, place.y]]).radius(radius).color(colour);
-        plot.points(mark.shape(egui_plot::MarkerShape::Diamond));
+    let frame = *plot.transform().frame();
+    let mut taken: Vec<egui::Rect> = all
+        .iter()
+        .map(|(_, place)| {
+            egui::Rect::from_center_size(plot.screen_from_plot(*place), egui::Vec2::splat(10.0))
+        })
+        .collect();
+    for (index, (name, place)) in all.iter().map(|(name, place)| (name.as_ref(), *place)).enumerate() {
+        recorder::draw(plot, &mut || Layer::Special { name: name.to_owned(), place: [place.x, place.y] });
+        let spaced = format!("  {name}  ");
+        let layout = |fonts: &mut egui::epaint::text::FontsView<'_>| {
+            fonts.layout_no_wrap(spaced.clone(), font.clone(), tokens.text_strong).size()
+        };
+        let size = plot.ctx().fonts_mut(layout);
+        let others = taken.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, rect)| *rect);
+        let others: Vec<egui::Rect> = others.collect();
+        if let Some((anchor, rect)) = anchor_with_room(plot.screen_from_plot(place), size, frame, &others) {
+            taken.push(rect);
+            let behind = tokens.card.gamma_multiply(BEHIND);
+            let rich = egui::RichText::new(spaced).font(font.clone());
+            let rich = rich.color(tokens.text_strong).background_color(behind);
+            let text = Text::new("", place, rich).color(tokens.text_strong);
+            plot.text(text.anchor(anchor).allow_hover(false));
+        }
+        // On a map any colour may be behind it.
+        for (radius, colour) in [(7.0, tokens.card), (5.0, tokens.text_strong)] {
+            let mark = Points::new(name, vec![[place.x, place.y]]).radius(radius).color(colour);
+            plot.points(mark.shape(egui_plot::MarkerShape::Diamond));
+        }
     }
 }
 
-/// Which corner of a text is at `place`, so that it ends within the frame: to the right and up where it can be.
-fn anchor_with_room(place: egui::Pos2, size: egui::Vec2, frame: egui::Rect) -> egui::Align2 {
-    let right = place.x + size.x <= frame.right() || place.x - size.x < frame.left();
+/// Which corner of a text is at `place`, and where that puts it, so that it ends within the frame and meets none of the
+/// `taken`: to the right and up where it can be. One that fits nowhere in the frame begins there.
+fn anchor_with_room(
+    place: egui::Pos2,
+    size: egui::Vec2,
+    frame: egui::Rect,
+    taken: &[egui::Rect],
+) -> Option<(egui::Align2, egui::Rect)> {
+    use egui::Align2;
+    let free = |rect: &egui::Rect| taken.iter().all(|other| !other.intersects(*rect));
+    let at = |anchor: Align2| (anchor, anchor.anchor_size(place, size));
+    let corners = [Align2::LEFT_BOTTOM, Align2::RIGHT_BOTTOM, Align2::LEFT_TOP, Align2::RIGHT_TOP].map(at);
+    let fits = |rect: &egui::Rect| rect.left() >= frame.left() && rect.right() <= frame.right();
+    let inside =
+        |rect: &egui::Rect| fits(rect) && rect.top() >= frame.top() && rect.bottom() <= frame.bottom();
+    if corners.iter().any(|(_, rect)| inside(rect)) {
+        return corners.into_iter().find(|(_, rect)| inside(rect) && free(rect));
+    }
     let up = place.y - size.y >= frame.top();
-    let across = if right { egui::Align::Min } else { egui::Align::Max };
-    egui::Align2([across, if up { egui::Align::Max } else { egui::Align::Min }])
+    Some(corners[if up { 0 } else { 2 }]).filter(|(_, rect)| free(rect))
 }
 
 /// The stretches of a curve without points that are not finite.
@@ -278,12 +311,36 @@ mod tests {
     fn a_name_ends_within_the_frame() {
         let frame = egui::Rect::from_min_size(egui::pos2(0.0, 0.0), egui::vec2(200.0, 100.0));
         let size = egui::vec2(80.0, 12.0);
-        let at = |x: f32, y: f32| anchor_with_room(egui::pos2(x, y), size, frame);
-        assert_eq!(at(50.0, 50.0), egui::Align2::LEFT_BOTTOM);
-        assert_eq!(at(150.0, 50.0), egui::Align2::RIGHT_BOTTOM);
-        assert_eq!(at(150.0, 5.0), egui::Align2::RIGHT_TOP);
-        let wide = anchor_with_room(egui::pos2(100.0, 50.0), egui::vec2(150.0, 12.0), frame);
-        assert_eq!(wide, egui::Align2::LEFT_BOTTOM, "no room on either side: the beginning is legible");
+        let at =
+            |x: f32, y: f32| anchor_with_room(egui::pos2(x, y), size, frame, &[]).map(|(anchor, _)| anchor);
+        assert_eq!(at(50.0, 50.0), Some(egui::Align2::LEFT_BOTTOM));
+        assert_eq!(at(150.0, 50.0), Some(egui::Align2::RIGHT_BOTTOM));
+        assert_eq!(at(150.0, 5.0), Some(egui::Align2::RIGHT_TOP));
+        let wide = anchor_with_room(egui::pos2(100.0, 50.0), egui::vec2(150.0, 12.0), frame, &[]);
+        let beginning = Some(egui::Align2::LEFT_BOTTOM);
+        assert_eq!(
+            wide.map(|(anchor, _)| anchor),
+            beginning,
+            "no room on either side: the beginning is legible"
+        );
+    }
+
+    #[test]
+    fn a_name_meets_no_other_and_is_left_out_where_there_is_no_room() {
+        let frame = egui::Rect::from_min_size(egui::pos2(0.0, 0.0), egui::vec2(200.0, 100.0));
+        let (place, size) = (egui::pos2(100.0, 50.0), egui::vec2(80.0, 12.0));
+        let mut taken = Vec::new();
+        for expected in [
+            egui::Align2::LEFT_BOTTOM,
+            egui::Align2::RIGHT_BOTTOM,
+            egui::Align2::LEFT_TOP,
+            egui::Align2::RIGHT_TOP,
+        ] {
+            let (anchor, rect) = anchor_with_room(place, size, frame, &taken).expect("room is left");
+            assert_eq!(anchor, expected);
+            taken.push(rect.shrink(0.5));
+        }
+        assert_eq!(anchor_with_room(place, size, frame, &taken), None);
     }
 
     #[test]
