@@ -117,3 +117,34 @@ impl Repertoire {
         Some(self.known.len() - 1)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{ForceLaw, Parameters};
+    use nalgebra::Complex;
+
+    #[test]
+    fn an_orbit_is_known_by_a_derivative_that_the_grid_resolves() {
+        let set = ParameterSet { alpha: 1e-4, beta: 2.5e-3, omega: 8.0969, ..Default::default() };
+        let parameters = Parameters::new(set).expect("in range");
+        let system = ReducedSystem::new(parameters, 2, ForceLaw::Exact).expect("a system");
+        // Near the forced motion: on the longest steps it is resolved, and how its neighbours part from it is not.
+        let guess = [6e-5, 0.0, -0.041, 0.0, -0.2];
+        let mut repertoire = Repertoire::new(&system);
+        let mut solver = repertoire.solver.clone();
+        solver.find_state(&guess, set.beta, 1).expect("an orbit");
+        solver.evaluate_observed(set.beta, 1, |_, _| ()).expect("followed");
+        assert!(!solver.was_resolved());
+        let coarse = solver.multipliers().expect("multipliers");
+        let index = repertoire.find(&guess, 1).expect("an orbit");
+        let found = &repertoire.known[index].orbit.multipliers;
+        let (expected, forced) = Orbit::from_rest(&system).expect("a forced motion");
+        assert!(forced);
+        let off = |multipliers: &[Complex<f64>]| {
+            let pairs = multipliers.iter().zip(&expected.multipliers);
+            pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+        };
+        assert!(off(found) < 1e-10 && off(&coarse) > 10.0 * off(found), "{} {}", off(found), off(&coarse));
+    }
+}
