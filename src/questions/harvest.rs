@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::checks::{Span, class};
 use super::design::band::{half_power, total, usable};
 use super::design::change::{Way as ChangeWay, between, from_rest};
-use super::design::linear::{LinearCurve, linear_curve};
+use super::design::linear::{LinearCurve, about_resonances, linear_curve};
 use super::design::point::powers;
 use super::design::{
     Bounds, DesignError, HarvestPoint, Interval, Operating, Plant, delivering_branches, operating,
@@ -30,6 +30,10 @@ use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_wit
 
 /// Frequencies of a piece of work.
 const PER_PIECE: usize = 8;
+/// Distances from a resonance, in its own widths, at which there are starts from rest, and the resonances: those of the modes,
+/// and the tongues at twice their frequencies.
+const ABOUT_RESONANCE: [f64; 3] = [0.0, 1.0, 3.0];
+const RESONANCES: [f64; 2] = [1.0, 2.0];
 /// Difference of neighbours in power that is looked into, as a part of the curve's highest power, and how many of them
 /// of a curve, the largest first.
 const JUMP: f64 = 0.05;
@@ -335,7 +339,7 @@ pub struct HarvestStudy {
     asked: (Scenario, Harvest),
     /// Lowest and highest omega (dimensionless).
     window: (f64, f64),
-    /// Those at which the motions are computed.
+    /// Those of the starts from rest: the values of the sweeps, and more about the resonances.
     omegas: Vec<f64>,
     plant: Plant,
     linear: LinearCurve,
@@ -361,7 +365,7 @@ impl HarvestStudy {
         let high = Parameter::Beta.range().1;
         ModelError::check("beta at the lowest frequency", plant.beta_at(window.0), (0.0, high), "")?;
         let rest = Scenario { initial: None, ..plant.scenario.clone() };
-        rest.validate()?;
+        let (system, _) = rest.validate()?;
         check_range(Parameter::Omega, window)?;
         let count = frequency.count;
         counted("count", count, COUNTS)?;
@@ -378,14 +382,16 @@ impl HarvestStudy {
             along: plant.along,
             logarithmic: question.logarithmic,
         };
-        let omegas = sweep.values(Direction::Up);
-        let linear = linear_curve(&plant, window, omegas.iter().copied())?;
+        let values = sweep.values(Direction::Up);
+        let linear = linear_curve(&plant, window, values.iter().copied())?;
+        // A peak, and a tongue that has just opened, may be narrower than the distance of the values.
+        let omegas = about_resonances(&system, window, values.into_iter(), &ABOUT_RESONANCE, &RESONANCES)?;
         Ok(Self {
             linear,
             branches: None,
             branches_handed: false,
             sweeps: SweepStudy::new(rest, sweep, &[Direction::Up, Direction::Down]),
-            starts: vec![None; count],
+            starts: vec![None; omegas.len()],
             omegas,
             starts_handed: 0,
             changes: None,

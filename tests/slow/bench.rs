@@ -40,7 +40,16 @@ fn a_harvest_over_frequency_has_curves_and_bands() {
         "frequency": {"from": 2.7, "to": 3.0, "count": 13},
     }));
     let curves = &found["curves"];
-    assert_eq!((list(&curves["up"]).len(), list(&curves["from_rest"]).len()), (13, 13));
+    assert_eq!(list(&curves["up"]).len(), 13);
+    // One of them at each of these, and more in the tongue, at twice the first frequency.
+    let starts: Vec<f64> =
+        list(&curves["from_rest"]).iter().filter_map(|start| start[1]["frequency"].as_f64()).collect();
+    // Below, the motion ends.
+    for k in 2..13 {
+        let asked = 2.7 + 0.025 * f64::from(k);
+        assert!(starts.iter().any(|start| (start / asked - 1.0).abs() < 1e-9), "{asked}: {starts:?}");
+    }
+    assert!(starts.len() > 13 && starts.is_sorted(), "{starts:?}");
     let bands: Vec<&str> = list(&curves["bands"]).iter().filter_map(|band| band["of"].as_str()).collect();
     assert_eq!(bands, ["linear", "stable", "from_rest", "up", "down"]);
     assert_eq!(number(&curves["bands"][0]["total"]), 0.0);
@@ -55,6 +64,31 @@ fn a_harvest_over_frequency_has_curves_and_bands() {
     let curves = &hard["curves"];
     assert!(list(&curves["branches"]).is_empty() && curves["branches_missing"].is_string(), "{curves}");
     assert!(list(&curves["up"]).iter().any(Value::is_null), "{curves}");
+}
+
+#[test]
+fn a_wide_window_holds_the_peak_that_a_narrow_one_holds() {
+    // A steel beam without magnets: its peak is known in closed form, and 0.1 Hz wide.
+    let device = json!({
+        "beam_length": 0.06, "beam_mass": 1.41e-3, "tip_mass": 0.74e-3, "youngs_modulus": 200e9,
+        "second_moment": 2.25e-14, "viscosity": 1e6, "capacitance": 13e-9, "resistance": 18e3, "coupling": 25e-6,
+        "frequency": 42.5, "flux_density": 0.0,
+    });
+    for (from, to) in [(38.0, 39.0), (30.0, 60.0), (10.0, 400.0)] {
+        let found = answer(&json!({
+            "task": "harvest", "device": device, "acceleration": 0.01, "hold": "acceleration",
+            "frequency": {"from": from, "to": to, "count": 11},
+        }));
+        let curves = &found["curves"];
+        let peak = number(&curves["linear"]["peak"][1]);
+        assert!((peak - 1.0262e-4).abs() < 1e-7, "{peak}");
+        let power = |point: &Value| point["power"].as_f64().unwrap_or_default();
+        let branch = list(&curves["branches"][0]["points"]).iter().map(power).fold(0.0, f64::max);
+        let rest = list(&curves["from_rest"]).iter().map(|start| power(&start[1])).fold(0.0, f64::max);
+        for (what, highest) in [("branch", branch), ("from rest", rest)] {
+            assert!(highest > 0.98 * peak && highest < 1.0001 * peak, "{what} {from} {to}: {highest} {peak}");
+        }
+    }
 }
 
 #[test]

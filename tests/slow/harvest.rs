@@ -206,10 +206,12 @@ fn every_motion_of_a_curve_has_the_dielectric_loss_of_its_own_frequency() -> Tes
         seen[periods - 1] += 1;
         Ok(())
     };
-    for (index, start) in study.from_rest().iter().enumerate() {
+    for start in study.from_rest() {
         let Some((Motion::Periodic { periods }, point)) = start.flatten() else { continue };
         agrees(&point, periods)?;
-        if let Some(swept) = study.swept(Direction::Up)[index].filter(|_| periods == 1) {
+        let mut up = study.swept(Direction::Up).into_iter().flatten();
+        let swept = up.find(|swept| swept.frequency == point.frequency);
+        if let Some(swept) = swept.filter(|_| periods == 1) {
             agrees(&swept, 1)?;
         }
     }

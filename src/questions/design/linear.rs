@@ -174,10 +174,25 @@ fn frequencies(
     window: (f64, f64),
     omegas: impl Iterator<Item = f64>,
 ) -> Result<Vec<f64>, DesignError> {
+    about_resonances(system, window, omegas, &ABOUT_RESONANCE, &[1.0])
+}
+
+/// These frequencies (omega) and, about the `multiples` of the eigenfrequencies of `system`, those at these `distances` in the
+/// resonance's own widths, ascending and within the window.
+///
+/// # Errors
+/// [`DesignError`] when the eigenvalues cannot be computed.
+pub(in crate::questions) fn about_resonances(
+    system: &ReducedSystem,
+    window: (f64, f64),
+    omegas: impl Iterator<Item = f64>,
+    distances: &[f64],
+    multiples: &[f64],
+) -> Result<Vec<f64>, DesignError> {
     let mut omegas: Vec<f64> = omegas.collect();
     for value in eigenvalues(system)?.into_iter().filter(|value| value.im > 0.0) {
-        for distance in ABOUT_RESONANCE {
-            omegas.extend([-1.0, 1.0].map(|side| value.im + side * distance * value.re.abs()));
+        for (multiple, distance) in multiples.iter().flat_map(|m| distances.iter().map(move |d| (m, d))) {
+            omegas.extend([-1.0, 1.0].map(|side| multiple * (value.im + side * distance * value.re.abs())));
         }
     }
     omegas.retain(|omega| (window.0..=window.1).contains(omega));
