@@ -8,6 +8,7 @@ use crate::app::command::Command;
 use crate::app::figures;
 use crate::app::theme;
 use crate::app::view::Tab;
+use crate::app::view::design::Page;
 use crate::app::widgets::touch;
 
 /// Share of the room that the plot takes, and beside a lesson, at least and at most so high, and what is left for a slider all
@@ -17,6 +18,8 @@ const SHARE_IN_LESSON: f32 = 0.58;
 const LEAST: f32 = 150.0;
 const MOST: f32 = 340.0;
 const SLIDER: f32 = 110.0;
+/// Height of the row below the plot.
+const ANSWER: f32 = 26.0;
 
 /// Draws it, where the tab has plots.
 pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
@@ -28,7 +31,10 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     context.on_top = Some(ui.available_rect_before_wrap());
     let room = ui.available_height();
     let share = if context.view.lesson.is_some() { SHARE_IN_LESSON } else { SHARE };
-    let height = (share * room).clamp(LEAST, MOST).min(room - SLIDER).max(0.0);
+    // What shakes the base there is another thing than the sine, of which the row tells.
+    let answers = context.view.shaken().is_none() && Place::of(context.view) != Place::Page(Page::Shake);
+    let beneath = SLIDER + if answers { ANSWER } else { 0.0 };
+    let height = (share * room).clamp(LEAST, MOST).min(room - beneath).max(0.0);
     let margin = Margin { left: 12, right: 12, top: 8, bottom: 0 };
     let panel = Panel::top("on top").exact_size(height).resizable(false).show_separator_line(false);
     let frame = Frame::new().fill(theme::tokens(ui).page).inner_margin(margin);
@@ -58,9 +64,10 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
     });
     let mut rect = shown.response.rect;
     // Whatever is moved beneath: what comes of it.
-    if context.view.shaken().is_none() {
+    if answers {
         let margin = Margin { left: 14, right: 14, top: 6, bottom: 0 };
-        let panel = Panel::top("answer on top").resizable(false).show_separator_line(false);
+        let panel =
+            Panel::top("answer on top").exact_size(ANSWER).resizable(false).show_separator_line(false);
         let frame = Frame::new().fill(theme::tokens(ui).page).inner_margin(margin);
         rect = rect.union(panel.frame(frame).show(ui, |ui| verdict::row(context, ui)).response.rect);
     }

@@ -21,7 +21,10 @@ const LEAST_ACCELERATION: f64 = 1e-3;
 /// Frequency and base motion.
 pub(in crate::app::panels) fn excitation(context: &mut Context<'_>, ui: &mut Ui) {
     choose_units(context, ui);
-    presets::buttons(context, ui);
+    // A lesson has brought its device, and on a phone no room for others.
+    if context.view.lesson.is_none() {
+        presets::buttons(context, ui);
+    }
     let Some(device) = device_of(context, ui) else { return };
     let mut changed = device;
     let scenario = &context.view.scenario;

@@ -20,9 +20,9 @@ use crate::dynamics::orbits::{Instability, OrbitError, OrbitSolver};
 use crate::model::{Along, Parameter, ReducedSystem};
 use crate::theory::spectrum::eigenvalues;
 
-/// Most points of a branch along a line: a resonance can be followed up without end, and beyond about this many the tip
-/// moves by more than the beam's length.
-const MOST_POINTS: usize = 300;
+/// Most points of a branch along a line: a resonance can be followed up without end, and beyond about this many, of which a
+/// third may lie about narrow resonances, the tip moves by more than the beam's length.
+const MOST_POINTS: usize = 450;
 /// Most lines through the centres of resonances.
 const MOST_CENTRES: usize = 12;
 
