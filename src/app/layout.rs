@@ -144,6 +144,19 @@ mod tests {
         }
     }
 
+    /// Scrolls down by so many points under a pointer `at` this place, to the end of the movement.
+    fn turn_wheel(desk: &mut Desk, at: egui::Pos2, by: f32) {
+        let turn = egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            delta: egui::vec2(0.0, -by),
+            phase: egui::TouchPhase::Move,
+            modifiers: egui::Modifiers::NONE,
+            source: egui::MouseWheelSource::Wheel,
+        };
+        desk.harness.frame(vec![egui::Event::PointerMoved(at), turn], |ui| desk.app.ui(ui));
+        desk.rest(20);
+    }
+
     #[test]
     fn a_tab_that_is_opened_begins_at_its_top() {
         for (width, height) in [(1100.0, 600.0), (360.0, 900.0)] {
@@ -157,15 +170,7 @@ mod tests {
             };
             let top = button(&desk);
             let at = egui::pos2(width - 100.0, height - 120.0);
-            let turn = egui::Event::MouseWheel {
-                unit: egui::MouseWheelUnit::Point,
-                delta: egui::vec2(0.0, -150.0),
-                phase: egui::TouchPhase::Move,
-                modifiers: egui::Modifiers::NONE,
-                source: egui::MouseWheelSource::Wheel,
-            };
-            desk.harness.frame(vec![egui::Event::PointerMoved(at), turn], |ui| desk.app.ui(ui));
-            desk.rest(20);
+            turn_wheel(&mut desk, at, 150.0);
             assert!(top.is_some() && button(&desk) != top, "{width}: {top:?}");
             desk.app.view.tab = Tab::Sweep;
             desk.rest(3);
@@ -189,16 +194,7 @@ mod tests {
             let slider = |desk: &Desk| desk.harness.find(egui::Role::Slider, "").bounds;
             let before = answer(&desk).expect("an answer");
             assert!(before.bottom() < slider(&desk).top() && before.bottom() < 500.0, "{tab}: {before}");
-            let turn = egui::Event::MouseWheel {
-                unit: egui::MouseWheelUnit::Point,
-                delta: egui::vec2(0.0, -300.0),
-                phase: egui::TouchPhase::Move,
-                modifiers: egui::Modifiers::NONE,
-                source: egui::MouseWheelSource::Wheel,
-            };
-            let at = egui::pos2(180.0, 700.0);
-            desk.harness.frame(vec![egui::Event::PointerMoved(at), turn], |ui| desk.app.ui(ui));
-            desk.rest(20);
+            turn_wheel(&mut desk, egui::pos2(180.0, 700.0), 300.0);
             assert_eq!(answer(&desk), Some(before), "{tab}");
         }
     }

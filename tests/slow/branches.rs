@@ -378,6 +378,27 @@ fn doublings_do_not_depend_on_the_window() {
 }
 
 #[test]
+fn nor_do_tori_at_the_sum_of_two_frequencies() {
+    let tori = |window: [f64; 2]| -> Vec<f64> {
+        let found = over_frequency(window, &json!({"alpha": 1e-4, "beta": 6e-3}));
+        let branches = list(&found["branches"]).iter();
+        let all = branches.flat_map(|branch| those(&branch["bifurcations"], "kind", "neimark_sacker"));
+        let mut omegas: Vec<f64> = all.map(|torus| number(&torus["value"])).collect();
+        omegas.retain(|omega| (25.0..26.0).contains(omega));
+        // A branch may be followed from its high end.
+        omegas.sort_by(f64::total_cmp);
+        omegas
+    };
+    let near = tori([25.0, 26.0]);
+    assert_eq!(near.len(), 2, "{near:?}");
+    for window in [[19.0, 32.0], [24.0, 45.0]] {
+        let far = tori(window);
+        let same = far.len() == 2 && near.iter().zip(&far).all(|(a, b)| (a - b).abs() < 1e-6);
+        assert!(same, "{window:?}: {far:?} for {near:?}");
+    }
+}
+
+#[test]
 fn what_would_take_too_long_is_cut_and_said_to_be() {
     let found = answer(&json!({
         "task": "continue", "parameter": "omega", "from": 1.0, "to": 200.0, "model": {"modes": 1, "force": "exact"},

@@ -1,4 +1,5 @@
-//! The chosen plot of a page with one column. It stays on top, whatever scrolls beneath it: sliders first of all.
+//! The chosen plot of a page with one column, and what comes of the sliders in a row below it. Both stay on top, whatever
+//! scrolls beneath them.
 
 use egui::{Frame, Id, Margin, Panel, Ui};
 

@@ -300,7 +300,7 @@ impl Family<1> {
     }
 
     /// Unit tangent of the branch at `place`, on the side of `like`, and the sign of the determinant of the defect's derivative
-    /// bordered by it. Along a branch that sign stays, through folds as well (Seydel, section 5.4): it changes where branches
+    /// bordered by it. Along a branch that sign stays, through folds as well: it changes where branches
     /// cross, and between neighbouring pieces of one, or of two, that run side by side in opposite senses.
     pub(super) fn tangent(
         &mut self,

@@ -100,8 +100,8 @@ struct Station {
     tangent: DVector<f64>,
     /// Sign of the determinant that [`Family::tangent`] tells.
     orientation: f64,
-    /// Those of [`pace::phases`].
-    phases: Vec<f64>,
+    /// How far a period turns each mode of the linear device.
+    mode_phases: Vec<f64>,
     point: BranchPoint,
     /// What half the period does to the state, scaled; zero where the orbit has half the period.
     halving: Option<DVector<f64>>,
@@ -146,7 +146,7 @@ impl Follower {
                 }
                 Ok(next) => next,
             };
-            let turns = (&here.phases[..], &next.phases[..]);
+            let turns = (&here.mode_phases[..], &next.mode_phases[..]);
             let turn = pace::turn(turns, &here.point.multipliers);
             let growth = (AHEAD / pace::turn(turns, &next.point.multipliers)).min(GROWTH);
             // A correction as long as the step, or a sharp turn, may belong to another branch.
@@ -273,17 +273,17 @@ impl Follower {
         let value = self.family.value(&place);
         let state = self.family.state(&place);
         let point = BranchPoint { value, state, multipliers, measures };
-        let phases = pace::phases(&self.family.system, self.family.periods);
-        Ok(Station { place, tangent, orientation, phases, point, halving })
+        let mode_phases = pace::mode_phases(&self.family.system, self.family.periods);
+        Ok(Station { place, tangent, orientation, mode_phases, point, halving })
     }
 
     /// The parameter where the orbit has half its period between two stations, if there.
     fn halved(&mut self, here: &Station, next: &Station, step: f64) -> Result<Option<f64>, OrbitError> {
         let (Some(before), Some(after)) = (&here.halving, &next.halving) else { return Ok(None) };
-        let (a, b) = (before.dot(before), before.dot(after));
-        if b > 0.0 {
+        if !crosses_half(here, next) {
             return Ok(None);
         }
+        let (a, b) = (before.dot(before), before.dot(after));
         let located = self.between(here, (0.0, a), (step, b), CLOSED, |station| {
             station.halving.as_ref().map_or(0.0, |halving| halving.dot(before))
         });

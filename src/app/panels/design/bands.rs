@@ -180,7 +180,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
 
 /// Chooses the power (W) that counts.
 pub(super) fn least_slider(context: &mut Context<'_>, ui: &mut Ui, present: f64) {
-    // None smaller, so that no power at all has a unit as well.
+    // Microwatts at the smallest: no power at all would be counted in watts.
     let (factor, sign) = prefix(present.max(1e-6));
     let (mut power, unit) = (round_significant(factor * present, 6), format!("{sign}W"));
     let slider = ParameterSlider::new(tr("Enough is"), "P", &mut power, 0.0..=factor)

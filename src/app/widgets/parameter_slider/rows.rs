@@ -51,10 +51,9 @@ impl Rows {
             (false, false) => FIELD + 8.0 + unit.size().x,
         };
         let width = width.max(170.0);
-        // Tracks under each other end alike, whatever their units are.
-        let aligned = if needs.compact && !needs.unit.is_empty() { ALIGNED * width } else { 0.0 };
-        let field = field.max(aligned);
         if needs.compact {
+            // Tracks under each other end alike, whatever their units are.
+            let field = if needs.unit.is_empty() { field } else { field.max(ALIGNED * width) };
             let (all, _) = ui.allocate_exact_size(vec2(width, NAME_ROW), Sense::hover());
             let split = all.left() + 0.38 * width;
             let field = Rect::from_min_max(pos2(all.right() - field, all.top()), all.max);
