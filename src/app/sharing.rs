@@ -144,6 +144,7 @@ impl App {
         if let Some(complaint) = link::complaint(&problems) {
             self.notice = Some(complaint);
         }
+        self.speech.misread = problems;
     }
 
     /// Shows what a file holds, as one step: a scenario, or measured data, which brings its page to the front. A bad

@@ -6,7 +6,7 @@ use egui::epaint::text::FontData;
 
 use super::errand::Errand;
 use super::text::{self, Language, fill, marked, page};
-use super::{App, fonts};
+use super::{App, fonts, link};
 
 /// What a language needs beside the page.
 pub struct Words {
@@ -48,7 +48,7 @@ impl App {
             return;
         }
         let first = self.speech.asked.replace(language).is_none();
-        if text::speak(language) {
+        if self.speak(language) {
             // The page begins in English.
             if first && language == Language::English {
                 return;
@@ -57,6 +57,17 @@ impl App {
         } else {
             self.errands.push(Errand::Fetch(language));
         }
+    }
+
+    /// Speaks a language if it is known, which is returned. A page opened by a link complains of it before it knows the
+    /// words of its language.
+    fn speak(&mut self, language: Language) -> bool {
+        let told = link::complaint(&self.speech.misread).filter(|told| self.notice.as_ref() == Some(told));
+        let known = text::speak(language);
+        if known && told.is_some() {
+            self.notice = link::complaint(&self.speech.misread);
+        }
+        known
     }
 
     /// Takes in what was fetched; says so when that failed, and leaves the texts as they are.
@@ -74,8 +85,35 @@ impl App {
             self.errands.push(Errand::Speak(text::language(), page::words()));
             self.notice = Some(fill(sentence, &[("language", &text::tr(name(language)))]));
         } else if self.speech.asked == Some(language) {
-            text::speak(language);
+            self.speak(language);
             self.errands.push(Errand::Speak(language, page::words()));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::rehearsal;
+
+    #[test]
+    fn a_link_is_complained_of_in_the_language_that_comes_after_it() {
+        text::reset();
+        let mut app = rehearsal::app(&egui::Context::default(), None);
+        app.choose_language(Language::German);
+        app.find_words();
+        app.open_link("v=1&omega=abc");
+        let english = app.notice.clone().expect("a complaint");
+        assert!(english.starts_with("Not everything in this link could be used: omega = abc"), "{english}");
+        let catalogue = include_bytes!("../../assets/text/de.json").to_vec();
+        app.learn(&egui::Context::default(), Language::German, Some(Words { catalogue, font: None }));
+        let german = app.notice.clone().expect("a complaint");
+        assert!(german.starts_with("Nicht alles in diesem Link"), "{german}");
+        assert!(german.contains("omega = abc"), "{german}");
+        app.notice = Some("something else".to_owned());
+        app.choose_language(Language::English);
+        app.find_words();
+        assert_eq!(app.notice.as_deref(), Some("something else"));
+        text::reset();
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use egui::epaint::text::FontData;
 
+use super::link::Problem;
 use super::text::Language;
 
 /// What is known of languages beside the view.
@@ -15,4 +16,6 @@ pub(super) struct Speech {
     pub asked: Option<Language>,
     /// The Chinese font, once it was needed.
     pub ideographs: Option<Arc<FontData>>,
+    /// What could not be used of the last link, to be told anew in another language.
+    pub misread: Vec<Problem>,
 }

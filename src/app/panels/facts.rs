@@ -16,7 +16,7 @@ pub(super) fn slider<'a>(fact: &'static Fact, value: &'a mut f64) -> ParameterSl
 pub(super) fn slider_in<'a>(fact: &'static Fact, factor: f64, value: &'a mut f64) -> ParameterSlider<'a> {
     let (low, high) = (round(factor * fact.usual.0), round(factor * fact.usual.1));
     let (low, high) = (low.min(*value), high.max(*value));
-    let slider = ParameterSlider::new(tr(fact.name), fact.base(), value, low..=high);
+    let slider = ParameterSlider::new(tr(fact.name), fact.symbol, value, low..=high);
     spread(slider, fact, low).tooltip(tr(fact.explanation))
 }
 

@@ -6,7 +6,7 @@ use egui::{Ui, vec2};
 pub(super) const GAP: f32 = 10.0;
 /// Least height of a plot's card, and where it stands alone in its row: its choices then take several rows.
 pub(super) const LEAST_HEIGHT: f32 = 270.0;
-pub(super) const LEAST_HEIGHT_ALONE: f32 = 380.0;
+pub(super) const LEAST_HEIGHT_ALONE: f32 = 420.0;
 /// Height a card has, more or less, where there are more rows than fit the page.
 const USUAL_HEIGHT: f32 = 330.0;
 /// Where whole rows would be lower than this, the page scrolls anyway and its cards are as high as suits them: rows of choices and

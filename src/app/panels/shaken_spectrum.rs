@@ -10,9 +10,9 @@ use crate::app::colours;
 use crate::app::text::tr;
 use crate::app::theme;
 use crate::app::view::design::Page;
-use crate::app::widgets::number::exact;
+use crate::app::widgets::number::{exact, with_unit};
 use crate::app::widgets::plot_style::{self, Axis};
-use crate::app::widgets::{draw_raster, raster, recorder};
+use crate::app::widgets::{colour_bar, draw_raster, raster, recorder, row};
 use crate::questions::shaken_run::ShakenRun;
 use crate::scheduler::Table;
 
@@ -31,6 +31,9 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui) {
     };
     let tokens = theme::tokens(ui);
     let highest = shown.amplitudes.iter().copied().fold(0.0, f32::max).max(f32::MIN_POSITIVE);
+    let [faintest, strongest] =
+        [10_f64.powf(-DECADES), 1.0].map(|part| with_unit(part * f64::from(highest), "V"));
+    row(ui, |ui| colour_bar(ui, &faintest, &strongest, &colours::sequential));
     let lane = context.studies.lanes.generation::<Table<ShakenRun>>();
     let revision = lane << 3 ^ tokens.number() << 62 ^ 1;
     let size = (shown.columns, shown.rows);

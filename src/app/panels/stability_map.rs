@@ -47,7 +47,6 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     row(ui, |ui| {
         ui.spacing_mut().item_spacing = egui::vec2(6.0, 2.0);
         choose_window(context, ui);
-        ui.add_space(6.0);
         if ui.available_size_before_wrap().x < LEGEND {
             ui.end_row();
         }

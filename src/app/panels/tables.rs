@@ -4,9 +4,9 @@ use egui::{Grid, RichText, Ui};
 
 use super::Context;
 use crate::app::text::{fill, tr};
+use crate::app::theme;
 use crate::app::widgets::number::short;
-use crate::app::widgets::{Card, number};
-use crate::app::{fonts, theme};
+use crate::app::widgets::{Card, number, symbol};
 use crate::model::materials::TABLE_2;
 use crate::model::{Device, Dimension, ElectricalScaling, Parameter, Part};
 
@@ -40,23 +40,6 @@ fn second(ui: &mut Ui) {
     Card::new(tr("Table 2 and section 5.4: piezoelectric ceramics")).hugging().show(ui, ceramics);
 }
 
-/// A symbol with what follows an underscore lowered.
-fn symbol(ui: &mut Ui, text: &str) {
-    let tokens = theme::tokens(ui);
-    let (base, index) = text.split_once('_').unwrap_or((text, ""));
-    let mut job = egui::text::LayoutJob::default();
-    for (part, size) in [(base, theme::size::BODY), (index, 0.72 * theme::size::BODY)] {
-        let format = egui::TextFormat {
-            font_id: fonts::regular(size),
-            color: tokens.text_strong,
-            valign: egui::Align::BOTTOM,
-            ..Default::default()
-        };
-        job.append(part, 0.0, format);
-    }
-    ui.label(job);
-}
-
 /// Five significant digits without trailing zeros.
 fn value(ui: &mut Ui, value: f64) {
     ui.label(number::typographic(&number::round_significant(value, 5).to_string()));
@@ -87,7 +70,7 @@ fn device(ui: &mut Ui) {
         // The meaning last: on a phone it may reach beyond the edge.
         heading(ui, &[tr("symbol"), tr("value"), tr("unit"), tr("meaning")]);
         let mut row = |name: &str, number: f64, unit: &str, meaning: &str| {
-            symbol(ui, name);
+            ui.label(symbol(name, theme::tokens(ui).text_strong));
             value(ui, number);
             ui.label(unit);
             ui.label(meaning);
@@ -110,7 +93,7 @@ fn numbers(ui: &mut Ui) {
     table(ui, "numbers", |ui| {
         heading(ui, &[tr("number"), tr("as printed"), tr("consistent units")]);
         for parameter in Parameter::ALL.into_iter().filter(|parameter| printed.get(*parameter) != 0.0) {
-            symbol(ui, parameter.fact().symbol);
+            ui.label(symbol(parameter.fact().symbol, theme::tokens(ui).text_strong));
             value(ui, printed.get(parameter));
             value(ui, consistent.get(parameter));
             ui.end_row();

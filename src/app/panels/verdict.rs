@@ -10,6 +10,7 @@ use super::design::safety::Safety;
 use crate::app::reading::{Reading, Tone};
 use crate::app::session::{Shown, Status};
 use crate::app::text::{fill, tr};
+use crate::app::view::Tab;
 use crate::app::widgets::icon::BUTTON_SIDE;
 use crate::app::widgets::{Icon, icon_button, words_explained};
 use crate::app::{fonts, theme};
@@ -41,7 +42,9 @@ pub(super) fn in_a_line(texts: &[String]) -> String {
 
 /// Rows of the three parts of the bar, by its width alone: what is beneath must not move while a verdict changes.
 struct Rows {
+    /// At most. A second one takes the room of one of the facts.
     headline: usize,
+    /// Under a headline in one row.
     facts: usize,
     details: usize,
 }
@@ -98,7 +101,14 @@ fn contents(context: &Context<'_>, ui: &mut Ui) -> Color32 {
         colour = tone(tokens, &reading);
         first.append(&reading.headline, 0.0, format(fonts::semibold(theme::size::HEADING), colour));
         first.append(&format!("  {}", reading.plain), 2.0, body(tokens.text));
-        second.append(&in_a_line(&reading.facts), 0.0, body(tokens.text));
+        let mut facts = in_a_line(&reading.facts);
+        let settles =
+            verdict.is_some_and(|verdict| verdict.v_rms.is_some()) && reading.tone != Tone::Alarming;
+        if context.view.tab == Tab::Live && settles {
+            // The numbers beside it are those of the moment.
+            facts = fill("settled: {facts}", &[("facts", &facts)]);
+        }
+        second.append(&facts, 0.0, body(tokens.text));
         for text in broken(context, shown, verdict) {
             let text = fill("beyond a limit: {text}", &[("text", &text)]);
             add(&mut second, &text, body(tokens.danger));
@@ -121,8 +131,15 @@ fn contents(context: &Context<'_>, ui: &mut Ui) -> Color32 {
     let top = ui.cursor().min;
     let right = top.x + ui.available_width();
     let place = egui::Rect::from_min_size(pos2(right - BUTTON_SIDE, top.y - 1.0), Vec2::splat(BUTTON_SIDE));
-    paragraph(ui, first, rows.headline, theme::size::HEADING, right - BUTTON_SIDE - 8.0 - top.x);
-    paragraph(ui, second, rows.facts, theme::size::BODY, right - top.x);
+    // The facts stand right under the headline; the room that either leaves is below both.
+    let of = |taken: usize| {
+        height(ui, taken, theme::size::HEADING) + height(ui, rows.facts + 1 - taken, theme::size::BODY)
+    };
+    let room = (1..=rows.headline).map(of).fold(0.0, f32::max) + ui.spacing().item_spacing.y;
+    let (block, _) = ui.allocate_exact_size(vec2(right - top.x, room), Sense::hover());
+    let mut block = ui.new_child(UiBuilder::new().max_rect(block));
+    let taken = paragraph(&mut block, first, rows.headline, right - BUTTON_SIDE - 8.0 - top.x);
+    paragraph(&mut block, second, (rows.facts + 1 - taken.max(1)).max(1), right - top.x);
     if open {
         details(ui, rest, rows.details);
     }
@@ -171,7 +188,7 @@ pub(super) fn row(context: &Context<'_>, ui: &mut Ui) {
         text.append(&facts, 0.0, format(fonts::regular(theme::size::BODY), tokens.text));
     }
     let width = ui.available_width();
-    paragraph(ui, text, 1, theme::size::BODY, width);
+    paragraph(ui, text, 1, width);
 }
 
 /// Adds a text of its own colour to others of a line.
@@ -186,11 +203,11 @@ fn height(ui: &Ui, rows: usize, size: f32) -> f32 {
     (row * rows as f32).ceil()
 }
 
-/// Text in just so many rows; what does not fit is told on touch.
-fn paragraph(ui: &mut Ui, mut job: LayoutJob, rows: usize, size: f32, width: f32) {
-    let (rect, response) = ui.allocate_exact_size(vec2(width, height(ui, rows, size)), Sense::CLICK);
+/// Text in at most so many rows, and how many it takes; what does not fit is told on touch.
+fn paragraph(ui: &mut Ui, mut job: LayoutJob, rows: usize, width: f32) -> usize {
     job.wrap = TextWrapping { max_width: width, max_rows: rows, ..Default::default() };
     let galley = ui.painter().layout_job(job);
+    let (rect, response) = ui.allocate_exact_size(vec2(width, galley.size().y), Sense::CLICK);
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, enabled, galley.text()));
     let place = Align2::LEFT_TOP.align_size_within_rect(galley.size(), rect);
@@ -199,6 +216,7 @@ fn paragraph(ui: &mut Ui, mut job: LayoutJob, rows: usize, size: f32, width: f32
     if galley.elided {
         response.on_hover_text(galley.text());
     }
+    galley.rows.len()
 }
 
 /// Text with room for so many rows; of a longer one the rest is scrolled to, not by the wheel, which is the page's.

@@ -12,7 +12,7 @@ use crate::export::Pen;
 
 /// Width of a sample with the space beside it, points; and where there is little room.
 const SAMPLE: f32 = 25.0;
-const SHORT_SAMPLE: f32 = 20.0;
+const SHORT_SAMPLE: f32 = 18.0;
 
 /// A sample of the curve and its name.
 pub fn legend_entry(ui: &mut Ui, series: Series, label: &str) -> Response {
@@ -85,7 +85,7 @@ fn paint_mark(ui: &Ui, at: egui::Pos2, pen: Pen, colour: Color32) {
 /// A row of samples.
 pub fn legend(ui: &mut Ui, entries: &[(Series, &str)]) {
     row(ui, |ui| {
-        ui.spacing_mut().item_spacing = vec2(if row::is_low(ui.ctx()) { 6.0 } else { 10.0 }, 0.0);
+        ui.spacing_mut().item_spacing = vec2(if row::is_low(ui.ctx()) { 4.0 } else { 10.0 }, 0.0);
         for (series, label) in entries {
             legend_entry(ui, *series, label);
         }

@@ -123,10 +123,15 @@ pub(in crate::app) fn in_words(check: &Check) -> String {
                 &[("value", &digits(check.value)), ("limit", &digits(check.limit))],
             )
         }
-        LimitKind::Sag => {
-            fill("sags by {percent} % of its length under gravity", &[("percent", &percent(check.value))])
-        }
+        LimitKind::Sag => fill("sags by {percent} % of its length", &[("percent", &percent(check.value))]),
     }
+}
+
+/// What to know of a device that sags too far under gravity for the model.
+pub(super) fn too_much_sag(scenario: &Scenario) -> Option<String> {
+    let sag = sag(&bench::device(scenario).ok()?);
+    (sag.standing == Standing::Exceeded)
+        .then(|| fill("the beam {sags}, which the model counts as small", &[("sags", &in_words(&sag))]))
 }
 
 /// How a motion stands to the limits: in a word, and the check that is nearest to failing or else the reason.

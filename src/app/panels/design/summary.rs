@@ -14,7 +14,7 @@ use crate::app::widgets::number::{prefix, significant, with_unit};
 use crate::app::widgets::{Card, Tile, tiles};
 use crate::dynamics::Motion;
 use crate::model::ElectricalScaling;
-use crate::model::limits::{Assessment, Standing, sag};
+use crate::model::limits::Assessment;
 use crate::questions::design::{Harvest, Operating};
 
 /// Least width of a tile, points.
@@ -197,20 +197,17 @@ fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
             &[("factor", &significant(factor, 3))],
         ));
     }
-    if let Ok(device) = bench::device(&context.view.scenario) {
-        if bench::printed_for_own(&device, context.view.scenario.scaling) {
-            remarks.push(
-                tr("the electrical scaling is the paper's: choose consistent units for a device of your own")
-                    .to_owned(),
-            );
-        }
-        let sag = sag(&device);
-        let said =
-            judged(context, operating).map(|judged| judged.assessment) == Some(Assessment::ModelNotValid);
-        if sag.standing == Standing::Exceeded && !(said && on_harvest(context)) {
-            let sags = safety::in_words(&sag);
-            remarks.push(fill("the beam {sags}, which the model counts as small", &[("sags", &sags)]));
-        }
+    if let Ok(device) = bench::device(&context.view.scenario)
+        && bench::printed_for_own(&device, context.view.scenario.scaling)
+    {
+        remarks.push(
+            tr("the electrical scaling is the paper's: choose consistent units for a device of your own")
+                .to_owned(),
+        );
+    }
+    let said = judged(context, operating).map(|judged| judged.assessment) == Some(Assessment::ModelNotValid);
+    if !(said && on_harvest(context)) {
+        remarks.extend(safety::too_much_sag(&context.view.scenario));
     }
     ui.add_space(4.0);
     ui.label(RichText::new(in_a_line(&facts)).color(tokens.text));

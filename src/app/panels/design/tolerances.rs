@@ -2,6 +2,7 @@
 
 use egui::{Grid, RichText, Ui};
 
+use super::safety;
 use crate::app::panels::{Context, computing, grid};
 use crate::app::text::{fill, say, tr};
 use crate::app::theme;
@@ -65,6 +66,10 @@ fn scatter(context: &mut Context<'_>, ui: &mut Ui) {
             )
         };
         line(ui, text);
+        if let Some(text) = safety::too_much_sag(&context.view.scenario) {
+            let text = RichText::new(text).small().color(theme::tokens(ui).warning);
+            ui.add(egui::Label::new(text).wrap());
+        }
     }
 }
 

@@ -16,6 +16,7 @@ use egui::{Align2, Area, Frame, Order, Response, Sense, Ui, pos2, vec2};
 use self::mapping::Mapping;
 use self::rows::{Needs, Rows};
 use super::icon::{self, Icon};
+use super::symbol::symbol;
 use crate::app::text::{fill, tr};
 use crate::app::{fonts, theme};
 
@@ -201,13 +202,13 @@ impl<'a> ParameterSlider<'a> {
     fn name_row(&self, ui: &Ui, id: egui::Id, rows: &Rows) -> Option<f64> {
         let tokens = theme::tokens(ui);
         let font = fonts::regular(theme::size::BODY);
-        let symbol_at = pos2(rows.symbol, rows.name.center().y);
-        let symbol =
-            ui.painter().text(symbol_at, Align2::RIGHT_CENTER, self.symbol, font.clone(), tokens.text_weak);
+        let sign = ui.painter().layout_job(symbol(self.symbol, tokens.text_weak));
+        let place = Align2::RIGHT_CENTER.anchor_size(pos2(rows.symbol, rows.name.center().y), sign.size());
+        ui.painter().galley(place.min, sign, tokens.text_weak);
         let mut job =
             egui::text::LayoutJob::simple_singleline(self.name.to_owned(), font, tokens.text_strong);
         job.wrap =
-            egui::text::TextWrapping::truncate_at_width((symbol.left() - 6.0 - rows.name.left()).max(10.0));
+            egui::text::TextWrapping::truncate_at_width((place.left() - 6.0 - rows.name.left()).max(10.0));
         let galley = ui.painter().layout_job(job);
         let name = Align2::LEFT_CENTER.anchor_size(rows.name.left_center(), galley.size());
         ui.painter().galley(name.min, galley, tokens.text_strong);
@@ -234,10 +235,7 @@ impl<'a> ParameterSlider<'a> {
     /// The tooltip of the name.
     fn explain(&self, ui: &mut Ui) {
         let tokens = theme::tokens(ui);
-        ui.label(
-            egui::RichText::new(format!("{} {}", self.name, self.symbol))
-                .font(fonts::semibold(theme::size::BODY)),
-        );
+        ui.label(symbol(&format!("{} {}", self.name, self.symbol), tokens.text_strong));
         ui.label(self.tooltip);
         if !self.marks.is_empty() && !self.compact {
             ui.label(tr("Click a mark to go to a resonance."));
