@@ -68,7 +68,7 @@ impl App {
             Command::SetContrast(contrast) => self.view.contrast = Some(contrast),
             Command::FollowSystem => (self.view.dark, self.view.contrast) = (None, None),
             Command::SetProjector(large) => self.view.projector = large,
-            Command::MoveBeam(moves) => self.view.beam_moves = moves,
+            Command::MoveBeam(moves) => self.view.beam_moves = Some(moves),
             Command::DismissNotice => self.notice = None,
             Command::Undo => self.undo(),
             Command::Redo => self.redo(),

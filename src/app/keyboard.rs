@@ -29,7 +29,13 @@ const LIVE: [(Key, LiveAction); 7] = [
 const AROUND: f32 = 12.0;
 
 /// Turns keys into commands, unless a text is being typed or something lies over the page, which have keys of their own.
-pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool, commands: &mut Commands) {
+pub(super) fn shortcuts(
+    context: &Context,
+    view: &View,
+    pinned: bool,
+    (dark, moves): (bool, bool),
+    commands: &mut Commands,
+) {
     let covered =
         shortcuts::SHEET.is_open(context) || greeting::SHEET.is_open(context) || Popup::is_any_open(context);
     if context.text_edit_focused() || covered {
@@ -67,7 +73,7 @@ pub(super) fn shortcuts(context: &Context, view: &View, pinned: bool, dark: bool
             (Key::P, Command::pin(view.tab, pinned)),
             (Key::D, Command::SetDark(!dark)),
             (Key::L, Command::SetProjector(!view.projector)),
-            (Key::B, Command::MoveBeam(!view.beam_moves)),
+            (Key::B, Command::MoveBeam(!moves)),
         ];
         for (key, command) in plain {
             if pressed(key) {

@@ -5,16 +5,30 @@ use super::{App, theme};
 use crate::model::Parameter;
 use crate::scenario::Forgotten;
 
+/// What the system asks of every page.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Wishes {
+    /// High contrast.
+    pub contrast: bool,
+    /// That nothing moves by itself.
+    pub stillness: bool,
+}
+
 impl App {
-    /// Says whether the system asks for high contrast.
-    pub fn set_system_contrast(&mut self, contrast: bool) {
-        self.system_contrast = contrast;
+    /// Says what the system asks for.
+    pub fn set_wishes(&mut self, wishes: Wishes) {
+        self.wishes = wishes;
+    }
+
+    /// Whether what can move by itself does.
+    pub(super) fn moves(&self) -> bool {
+        self.view.beam_moves.unwrap_or(!self.wishes.stillness)
     }
 
     /// Whether the theme is dark, and whether it has high contrast.
     pub fn look(&self, context: &egui::Context) -> (bool, bool) {
         let system = context.system_theme().unwrap_or(egui::Theme::Dark) == egui::Theme::Dark;
-        (self.view.dark.unwrap_or(system), self.view.contrast.unwrap_or(self.system_contrast))
+        (self.view.dark.unwrap_or(system), self.view.contrast.unwrap_or(self.wishes.contrast))
     }
 
     /// Tells egui about theme and type size when they have changed.

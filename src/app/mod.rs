@@ -110,8 +110,7 @@ pub struct App {
     records: bool,
     /// What egui was last told about theme and type size.
     styled: Option<(bool, bool, bool)>,
-    /// Whether the system asks for high contrast.
-    system_contrast: bool,
+    wishes: looks::Wishes,
     /// The device that plots showed last.
     device: Option<Scenario>,
 }
@@ -147,7 +146,7 @@ impl App {
             styled: None,
             speech: Speech::default(),
             records: false,
-            system_contrast: false,
+            wishes: looks::Wishes::default(),
             device: None,
         };
         app.style(context);
@@ -250,7 +249,7 @@ impl App {
         self.history.begin_frame(hand);
         self.go_on(ui.ctx());
         let (pinned, dark) = (self.session.pinned.is_some(), theme::tokens(ui).dark);
-        keyboard::shortcuts(ui.ctx(), &self.view, pinned, dark, &mut commands);
+        keyboard::shortcuts(ui.ctx(), &self.view, pinned, (dark, self.moves()), &mut commands);
         if self.embed.is_some() {
             // What the whole page would show or save is not there.
             commands
@@ -285,6 +284,7 @@ impl App {
             embed: self.embed.as_ref(),
             steps: self.history.can(),
             records: self.records,
+            moves: self.moves(),
             on_top: None,
             commands,
         };
@@ -308,7 +308,7 @@ impl App {
             goes_on = motion.is_some() || self.view.shaken().is_none();
             self.live.shake(motion, &self.view.scenario);
         }
-        if self.live.frame(context.input(|input| input.time), &self.view, goes_on) {
+        if self.live.frame(context.input(|input| input.time), (&self.view, self.moves()), goes_on) {
             context.request_repaint();
         }
         self.errands.extend(self.live.chunk().map(Errand::Sound));

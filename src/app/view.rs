@@ -67,8 +67,8 @@ pub struct View {
     pub contrast: Option<bool>,
     /// Large type for the lecture room.
     pub projector: bool,
-    /// Whether the beam moves.
-    pub beam_moves: bool,
+    /// Whether what can move by itself does, the beam and the live run; the system's choice when absent.
+    pub beam_moves: Option<bool>,
 }
 
 /// What of a view cannot be shown.
@@ -112,7 +112,7 @@ impl Default for View {
             map: MapWindow::First,
             figure: 9,
             enlarged: None,
-            beam_moves: true,
+            beam_moves: None,
             layer: Quantity::default(),
             sweep: SweepView::default(),
             plane: [Parameter::Omega, Parameter::Beta],

@@ -62,6 +62,7 @@ const WALK: &str = "return (async () => {
 fn tab_goes_round_all_controls_of_every_tab() {
     let mut page = Page::open(1000, 700, Theme::Dark);
     page.script("harvester.load('{\"t_end\":100}')");
+    page.let_move();
     // A beam that moves asks for pictures all the time.
     page.keys(&[], 'b');
     page.wait_until("the beam to be held", |state| state["view"]["beam_moves"] == false);

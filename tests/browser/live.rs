@@ -51,6 +51,7 @@ const LISTEN: &str = "
 #[ignore = "needs the built page and Chromium: make test"]
 fn time_goes_on_while_a_slider_is_dragged() {
     let mut page = Page::open(1440, 900, Theme::Dark);
+    page.let_move();
     let json = r#"{"parameters":{"alpha":1e-4,"beta":0.01,"omega":8.0969}}"#;
     page.call("load", json).expect("a scenario");
     click(&mut page, "Live");
@@ -91,6 +92,7 @@ fn time_goes_on_while_a_slider_is_dragged() {
 #[ignore = "needs the built page and Chromium: make test"]
 fn the_voltage_is_heard_when_asked_for_and_not_before() {
     let mut page = Page::open(1440, 900, Theme::Light);
+    page.let_move();
     page.script(LISTEN);
     let json = r#"{"scenario":{"parameters":{"alpha":1e-4,"beta":0.01,"omega":8.0969}},"tab":"live"}"#;
     page.call("load", json).expect("a view");
@@ -126,6 +128,7 @@ fn the_voltage_is_heard_when_asked_for_and_not_before() {
 #[ignore = "needs the built page and Chromium: make test"]
 fn an_escape_is_said_in_words_and_can_be_started_again() {
     let mut page = Page::open(1440, 900, Theme::Dark);
+    page.let_move();
     let json = r#"{"scenario":{"parameters":{"alpha":1e-4,"beta":0.01,"omega":42.7125}},"tab":"live",
         "live":{"speed":20.0}}"#;
     page.call("load", json).expect("a view");

@@ -159,8 +159,26 @@ fn refuses_nonsense_with_a_message() {
 
 #[test]
 #[ignore = "needs the built page and Chromium: make test"]
+fn nothing_moves_by_itself_where_the_system_asks_for_stillness() {
+    let mut page = Page::open(1440, 900, Theme::Dark);
+    let count = |page: &Page| page.frames()["count"].as_u64().unwrap_or_default();
+    page.wait("the page to rest", |page| {
+        let before = count(page);
+        sleep(Duration::from_secs(1));
+        (count(page) == before).then_some(())
+    });
+    let before = count(&page);
+    page.let_move();
+    page.wait("the beam to move", |page| (count(page) > before + 10).then_some(()));
+    page.find("Hold: The beam", &["Button"]);
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
 fn says_what_a_frame_costs() {
     let mut page = Page::open(1440, 900, Theme::Dark);
+    page.let_move();
     let slider = page.slider("Frequency");
     // The list of widgets costs time itself; the page stops making it soon after the last question.
     sleep(Duration::from_secs(2));

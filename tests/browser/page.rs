@@ -170,6 +170,11 @@ impl Page {
         self.browser.resize(width, height, theme);
     }
 
+    /// Lets the page move by itself, as most systems do.
+    pub(crate) fn let_move(&self) {
+        self.browser.let_move(true);
+    }
+
     /// Runs JavaScript; a promise is waited for.
     pub(crate) fn script(&self, script: &str) -> Value {
         self.script_with(script, vec![])

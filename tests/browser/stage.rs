@@ -52,6 +52,7 @@ fn a_clip_of_the_page_and_of_a_plot_is_saved_as_a_film() {
     let folder = env::temp_dir().join(format!("harvester-clips-{}", std::process::id()));
     fs::create_dir_all(&folder).expect("a folder");
     page.downloads_to(&folder);
+    page.let_move();
     let live = page.find("Live", &["Tab"]);
     page.click(live.at(0.5, 0.5));
     let record = page.find("Record a clip of the page", &["Button"]);

@@ -4,8 +4,13 @@ use wasm_bindgen::prelude::Closure;
 use wasm_bindgen::{JsCast as _, JsValue};
 use web_sys::MediaQueryList;
 
+use crate::app::looks::Wishes;
+
 /// What asks for high contrast: a setting of the system, or colours that the browser forces upon pages.
 const CONTRAST: &str = "(prefers-contrast: more), (forced-colors: active)";
+
+/// What asks for stillness.
+const STILLNESS: &str = "(prefers-reduced-motion: reduce)";
 
 fn query(text: &str) -> Option<MediaQueryList> {
     web_sys::window()?.match_media(text).ok().flatten()
@@ -16,26 +21,33 @@ pub(super) fn has_coarse_pointer() -> bool {
     query("(any-pointer: coarse)").is_some_and(|query| query.matches())
 }
 
-/// Whether high contrast is wished for; looked at once a frame.
-pub(super) struct Contrast(Option<MediaQueryList>);
+/// What the system asks for; looked at once a frame.
+pub(super) struct Asked {
+    contrast: Option<MediaQueryList>,
+    stillness: Option<MediaQueryList>,
+}
 
-impl Contrast {
-    /// Has a frame drawn whenever the wish changes.
+impl Asked {
+    /// Has a frame drawn whenever a wish changes.
     pub(super) fn watch(context: &egui::Context) -> Self {
-        let query = query(CONTRAST);
-        if let Some(query) = &query {
-            let context = context.clone();
-            let listener = Closure::<dyn FnMut()>::new(move || context.request_repaint());
-            query.set_onchange(Some(listener.as_ref().unchecked_ref()));
-            // The page listens as long as it lives.
-            listener.forget();
-        }
-        Self(query)
+        let watched = |text| {
+            let query = query(text);
+            if let Some(query) = &query {
+                let context = context.clone();
+                let listener = Closure::<dyn FnMut()>::new(move || context.request_repaint());
+                query.set_onchange(Some(listener.as_ref().unchecked_ref()));
+                // The page listens as long as it lives.
+                listener.forget();
+            }
+            query
+        };
+        Self { contrast: watched(CONTRAST), stillness: watched(STILLNESS) }
     }
 
-    /// Whether the system asks for it.
-    pub(super) fn is_wished(&self) -> bool {
-        self.0.as_ref().is_some_and(|query| query.matches())
+    /// What it asks for now.
+    pub(super) fn wishes(&self) -> Wishes {
+        let holds = |query: &Option<MediaQueryList>| query.as_ref().is_some_and(|query| query.matches());
+        Wishes { contrast: holds(&self.contrast), stillness: holds(&self.stillness) }
     }
 }
 

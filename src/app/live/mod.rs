@@ -146,9 +146,9 @@ impl Live {
         self.run.as_ref().map(LiveRun::period)
     }
 
-    /// Goes on by the time since the last frame, where it is `in_sight`; `now` is the page's clock (s). Whether it goes on
+    /// Goes on by the time since the last frame, where it is `in_sight`, begun running where the page `moves`; `now` is the page's clock (s). Whether it goes on
     /// in the next frame.
-    pub(super) fn frame(&mut self, now: f64, view: &View, in_sight: bool) -> bool {
+    pub(super) fn frame(&mut self, now: f64, (view, moves): (&View, bool), in_sight: bool) -> bool {
         if !in_sight {
             (self.clock, self.reached) = (None, None);
             return false;
@@ -156,7 +156,7 @@ impl Live {
         let passed = self.clock.replace(now).map_or(0.0, |before| (now - before).clamp(0.0, LONGEST_FRAME));
         let wanted = Some((view.scenario.parameters, view.scenario.model));
         if self.run.is_none() && self.ended.is_none() && self.followed != wanted {
-            self.running = view.beam_moves;
+            self.running = moves;
             let start = view.scenario.initial.clone();
             self.start(&view.scenario, start, 0.0, 0.0);
         }

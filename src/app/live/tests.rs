@@ -33,14 +33,14 @@ impl Page {
     fn new(view: View) -> Self {
         let mut page = Self { live: Live::default(), view, clock: 0.0 };
         // The first frame only starts the clock.
-        page.live.frame(0.0, &page.view, true);
+        page.live.frame(0.0, (&page.view, true), true);
         page
     }
 
     fn frames(&mut self, count: usize) -> bool {
         (0..count).fold(false, |_, _| {
             self.clock += FRAME;
-            self.live.frame(self.clock, &self.view, self.view.tab == Tab::Live)
+            self.live.frame(self.clock, (&self.view, true), self.view.tab == Tab::Live)
         })
     }
 
@@ -121,7 +121,7 @@ fn state_and_phase_go_on_when_a_number_changes() {
         let (state, before) = (page.state(), page.sample());
         *page.view.scenario.parameters.get_mut(parameter) *= if k % 2 == 0 { 1.03 } else { 0.98 };
         // A frame of no length takes the numbers over and nothing else.
-        page.live.frame(page.clock, &page.view, page.view.tab == Tab::Live);
+        page.live.frame(page.clock, (&page.view, true), page.view.tab == Tab::Live);
         let after = page.sample();
         assert_eq!((page.state(), after.turns), (state.clone(), before.turns), "{parameter:?}");
         assert!((after.time - before.time).abs() < 1e-12 * after.time);
@@ -157,7 +157,7 @@ fn modes_can_come_and_go_on_the_way() {
     page.frames(200);
     let before = page.state();
     page.view.scenario.set_modes(4);
-    page.live.frame(page.clock, &page.view, page.view.tab == Tab::Live);
+    page.live.frame(page.clock, (&page.view, true), page.view.tab == Tab::Live);
     let state = page.state();
     assert_eq!((&state[..2], &state[4..6], state[8]), (&before[..2], &before[2..4], before[4]));
     assert_eq!((&state[2..4], &state[6..8]), (&[0.0; 2][..], &[0.0; 2][..]));
@@ -287,7 +287,7 @@ fn under_noise_it_is_the_run_of_the_integrator_and_goes_on_through_changes() {
     let mut frames = |live: &mut Live, view: &View, count: usize| {
         for _ in 0..count {
             live.shake(motion(view), &view.scenario);
-            live.frame(clock, view, true);
+            live.frame(clock, (view, true), true);
             clock += FRAME;
         }
     };

@@ -31,14 +31,14 @@ pub(super) fn show_in(context: &mut Context<'_>, ui: &mut Ui, height: f32) {
         Outcome::Contact { .. } => tr("at contact").to_owned(),
     };
     let (icon, label) =
-        if context.view.beam_moves { (Icon::Pause, tr("Hold")) } else { (Icon::Play, tr("Let it move")) };
+        if context.moves { (Icon::Pause, tr("Hold")) } else { (Icon::Play, tr("Let it move")) };
     let card = Card::new(tr("The beam"))
         .hint(&hint)
         .button(icon, label)
         .hugging()
         .show(ui, |ui| picture(context, ui, height, false));
     if card.pressed.is_some() {
-        context.commands.push(Command::MoveBeam(!context.view.beam_moves));
+        context.commands.push(Command::MoveBeam(!context.moves));
     }
 }
 
@@ -46,10 +46,10 @@ pub(super) fn show_in(context: &mut Context<'_>, ui: &mut Ui, height: f32) {
 pub(super) fn picture(context: &Context<'_>, ui: &mut Ui, height: f32, labelled: bool) {
     let Some(shown) = context.shown() else { return };
     let (run, curves) = (&shown.run, &shown.curves);
-    let moves = context.view.beam_moves && run.outcome() == Outcome::Completed;
+    let moves = context.moves && run.outcome() == Outcome::Completed;
     let period = run.system.parameters.period();
     let [from, to] = curves.repeat;
-    let clock = if context.view.beam_moves { ui.input(|input| input.time) } else { 0.0 };
+    let clock = if context.moves { ui.input(|input| input.time) } else { 0.0 };
     let time = match run.outcome() {
         Outcome::Completed => from + (clock / SECONDS_PER_PERIOD * period).rem_euclid((to - from).max(1e-9)),
         Outcome::Escaped { .. } | Outcome::Contact { .. } => to,

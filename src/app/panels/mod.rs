@@ -70,6 +70,8 @@ pub(super) struct Context<'a> {
     pub steps: (bool, bool),
     /// Whether a clip is being recorded.
     pub records: bool,
+    /// Whether what can move by itself does.
+    pub moves: bool,
     /// Where the chosen plot stands above the tab, which then leaves its plots out.
     pub on_top: Option<egui::Rect>,
     pub commands: &'a mut Commands,

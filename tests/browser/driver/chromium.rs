@@ -1,6 +1,7 @@
 //! One headless Chromium under chromedriver.
 
 use std::{
+    cell::Cell,
     env, fs,
     io::{BufRead as _, BufReader},
     path::PathBuf,
@@ -22,6 +23,8 @@ pub(crate) struct Chromium {
     client: Option<Client>,
     driver: Child,
     profile: PathBuf,
+    /// What the system asks pages for: its colours, and whether they may move by themselves.
+    wishes: Cell<(Theme, bool)>,
 }
 
 impl Chromium {
@@ -41,7 +44,8 @@ impl Chromium {
         let port = announced_port(&mut driver);
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
         // Built before the session exists, so that a failed connection still ends the driver.
-        let mut browser = Self { runtime, client: None, driver, profile };
+        let wishes = Cell::new((Theme::Dark, false));
+        let mut browser = Self { runtime, client: None, driver, profile, wishes };
 
         let capabilities = json!({
             "browserName": "chrome",
@@ -80,6 +84,24 @@ impl Chromium {
         self.runtime.block_on(answer).expect("the browser answers")
     }
 
+    fn tell_wishes(&self) {
+        let (theme, moves) = self.wishes.get();
+        let (scheme, contrast) = match theme {
+            Theme::Dark => ("dark", "no-preference"),
+            Theme::Light => ("light", "no-preference"),
+            Theme::DarkContrast => ("dark", "more"),
+            Theme::LightContrast => ("light", "more"),
+        };
+        let motion = if moves { "no-preference" } else { "reduce" };
+        let features = [
+            ("prefers-color-scheme", scheme),
+            ("prefers-contrast", contrast),
+            ("prefers-reduced-motion", motion),
+        ];
+        let features = features.map(|(name, value)| json!({ "name": name, "value": value }));
+        self.devtools("Emulation.setEmulatedMedia", &json!({ "features": features }));
+    }
+
     fn post(&self, path: &'static str, body: Value) -> Value {
         self.run(self.client().issue_cmd(Post { path, body }))
     }
@@ -109,17 +131,13 @@ impl Browser for Chromium {
     fn resize(&self, width: u32, height: u32, theme: Theme) {
         let metrics = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.devtools("Emulation.setDeviceMetricsOverride", &metrics);
-        let (scheme, contrast) = match theme {
-            Theme::Dark => ("dark", "no-preference"),
-            Theme::Light => ("light", "no-preference"),
-            Theme::DarkContrast => ("dark", "more"),
-            Theme::LightContrast => ("light", "more"),
-        };
-        let media = json!({ "features": [
-            { "name": "prefers-color-scheme", "value": scheme },
-            { "name": "prefers-contrast", "value": contrast },
-        ] });
-        self.devtools("Emulation.setEmulatedMedia", &media);
+        self.wishes.set((theme, self.wishes.get().1));
+        self.tell_wishes();
+    }
+
+    fn let_move(&self, moves: bool) {
+        self.wishes.set((self.wishes.get().0, moves));
+        self.tell_wishes();
     }
 
     fn console(&self) -> Vec<(String, String)> {

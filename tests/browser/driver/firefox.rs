@@ -41,6 +41,7 @@ impl Firefox {
         let preferences = [
             ("marionette.port", json!(0)),
             ("layout.css.prefers-color-scheme.content-override", json!(dark)),
+            ("ui.prefersReducedMotion", json!(1)),
             ("webgl.force-enabled", json!(true)),
             ("app.update.enabled", json!(false)),
             ("browser.shell.checkDefaultBrowser", json!(false)),

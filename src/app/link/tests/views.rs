@@ -217,7 +217,7 @@ fn live() -> impl Strategy<Value = LiveView> {
 pub(super) fn view() -> impl Strategy<Value = View> {
     let languages = option::of(select(&Language::ALL[..]));
     let looks =
-        (option::of(any::<bool>()), any::<bool>(), any::<bool>(), option::of(any::<bool>()), languages);
+        (option::of(any::<bool>()), any::<bool>(), option::of(any::<bool>()), option::of(any::<bool>()), languages);
     let front = (select(&TABS[..]), select(&MAPS[..]), select(&LAYERS[..]), option::of(select(Panel::ALL)));
     let plane = (0..5_usize, 1..5_usize)
         .prop_map(|(x, step)| [curves::PARAMETERS[x], curves::PARAMETERS[(x + step) % 5]]);
