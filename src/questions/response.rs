@@ -7,7 +7,7 @@ use crate::dynamics::bifurcations::branch::MOST_EFFORT;
 use crate::dynamics::orbits::period_map::MOST_PERIODS;
 use crate::dynamics::{
     Bifurcation, Branch, BranchEnd, BranchPoint, Course, Instability, Measures, Orbit, OrbitError,
-    follow_branch, follow_doubled,
+    follow_branch, follow_doubled, follow_forced,
 };
 use crate::model::{Along, ModelError, Parameter};
 use crate::scenario::Scenario;
@@ -110,8 +110,8 @@ struct Following<'a> {
 }
 
 /// Follows the forced motion of the device of `scenario` while a parameter goes through `range`, from the low end and, where
-/// it does not come through, from the high end too; then so many `doublings` of the branches' periods. `moved` is that
-/// parameter, and what follows the frequency meanwhile.
+/// it does not come through to that of the high end, from there too; then so many `doublings` of the branches' periods.
+/// `moved` is that parameter, and what follows the frequency meanwhile.
 ///
 /// The forced motion at an end is the one that Newton's iteration reaches from the linear response there. Branches that
 /// touch none of these, such as isolas, are not found.
@@ -124,18 +124,19 @@ pub(in crate::questions) fn branches(
     range: (f64, f64),
     doublings: usize,
 ) -> Result<Vec<Followed>, OrbitError> {
-    let from_low = forced(scenario, moved, range, true);
-    let through = from_low.as_ref().is_ok_and(|(branch, _)| {
-        let last = branch.points.last().map(|point| point.value);
-        branch.end == BranchEnd::Range && last.is_some_and(|last| same(last, range.1, range))
-    });
-    let from_high = (!through).then(|| forced(scenario, moved, range, false));
-    let found: Vec<_> = match (from_low, from_high) {
+    let (parameter, along) = moved;
+    let forced = |value| {
+        let system = scenario.model.system(along.at(&scenario.parameters, parameter, value))?;
+        let state = Orbit::find(&system, None, 1)?.state;
+        Ok((system, state))
+    };
+    let course = Course { parameter, along, range, periods: 1, upwards: true, most_points: MOST_POINTS };
+    let found: Vec<_> = match follow_forced(&forced, &course) {
         (Err(reason), None | Some(Err(_))) => return Err(reason),
-        (low, high) => low.into_iter().chain(high.into_iter().flatten()).collect(),
+        (low, high) => [low.ok(), high.and_then(Result::ok)].into_iter().flatten().collect(),
     };
     let mut following = Following { scenario, branches: Vec::new(), effort: 0 };
-    for (branch, course) in found {
+    for branch in found {
         following.add(branch, Begin::End(BranchEnd::Range), course, doublings)?;
     }
     Ok(following.branches)
@@ -194,19 +195,6 @@ fn joined(mut back: Branch, mut forth: Branch) -> (Branch, BranchEnd) {
     back.effort += forth.effort;
     let begin = std::mem::replace(&mut back.end, forth.end);
     (back, begin)
-}
-
-fn forced(
-    scenario: &Scenario,
-    (parameter, along): (Parameter, Along),
-    range: (f64, f64),
-    upwards: bool,
-) -> Result<(Branch, Course), OrbitError> {
-    let set = along.at(&scenario.parameters, parameter, if upwards { range.0 } else { range.1 });
-    let system = scenario.model.system(set)?;
-    let orbit = Orbit::find(&system, None, 1)?;
-    let course = Course { parameter, along, range, periods: 1, upwards, most_points: MOST_POINTS };
-    Ok((follow_branch(&system, &orbit.state, &course)?, course))
 }
 
 fn same(a: f64, b: f64, (low, high): (f64, f64)) -> bool {

@@ -465,3 +465,113 @@ fn an_isola_is_followed_from_a_motion_on_it_and_closes() {
         assert!(others.any(|other| (number(&other["value"]) - fold).abs() < 1e-7), "{fold}");
     }
 }
+
+/// The bifurcations of the branches of a request, each with its kind, value and criticality.
+fn bifurcations(request: &Value) -> Vec<(String, f64, Value)> {
+    let found = answer(request);
+    let branches = list(&found["branches"]).iter();
+    let all = branches.flat_map(|branch| list(&branch["bifurcations"]).iter());
+    all.map(|found| {
+        let kind = found["kind"].as_str().unwrap_or_default().to_owned();
+        (kind, number(&found["value"]), found["criticality"].clone())
+    })
+    .collect()
+}
+
+#[test]
+fn a_doubling_with_nearly_no_damping_is_found_and_judged_alike_from_every_window() {
+    // det(M + I) = 0 by bisection on derivatives of another integrator: 7.817199150. The pair meets on the axis only 1e-9 before.
+    for window in [[7.81, 7.83], [7.8, 8.0], [7.8, 8.4], [7.7, 8.4]] {
+        let found = bifurcations(&json!({
+            "task": "continue", "parameter": "omega", "from": window[0], "to": window[1],
+            "parameters": {"alpha": 1e-6, "theta": 0, "beta": 0.01}, "model": {"modes": 1, "force": "exact"},
+        }));
+        let [(kind, value, criticality)] = &found[..] else { panic!("{window:?}: {found:?}") };
+        assert_eq!((kind.as_str(), criticality), ("period_doubling", &json!("supercritical")), "{window:?}");
+        assert!((value - 7.817199150).abs() < 2e-9, "{window:?}: {value}");
+    }
+}
+
+#[test]
+fn the_forced_motion_of_the_high_end_is_followed_though_another_branch_arrives_there() {
+    // From the low end the branch climbs the bent peak and arrives at the high one on its upper side.
+    let found = answer(&json!({
+        "task": "continue", "parameter": "omega", "from": 3.5, "to": 5,
+        "parameters": {"alpha": 1e-4, "beta": 0.001}, "model": {"force": "exact"},
+    }));
+    let swings: Vec<f64> = list(&found["branches"])
+        .iter()
+        .filter(|branch| branch["periods"] == 1)
+        .flat_map(|branch| list(&branch["points"]))
+        .filter(|point| number(&point["value"]) == 5.0)
+        .map(|point| number(&point["tip"][1]))
+        .collect();
+    // Of the linear device near 5: a few thousandths of the beam's length.
+    let small = swings.iter().filter(|swing| **swing < 0.006).count();
+    let large = swings.iter().filter(|swing| **swing > 0.3).count();
+    assert!(small >= 1 && large >= 1, "{swings:?}");
+}
+
+/// Every change of stability between two points of a branch has a bifurcation there.
+fn changes_are_told(found: &Value, of: &dyn std::fmt::Debug) {
+    for branch in list(&found["branches"]) {
+        let told: Vec<f64> =
+            list(&branch["bifurcations"]).iter().map(|bifurcation| number(&bifurcation["after"])).collect();
+        for (after, pair) in list(&branch["points"]).windows(2).enumerate() {
+            let silent = pair[0]["stable"] != pair[1]["stable"] && !told.contains(&(after as f64 + 1.0));
+            let [from, to] =
+                [&pair[0], &pair[1]].map(|point| (number(&point["value"]), number(&point["multiplier"])));
+            assert!(!silent, "{of:?}: {from:?} to {to:?}, {told:?}");
+        }
+    }
+}
+
+#[test]
+fn no_stability_changes_in_silence_where_there_is_nearly_no_damping() {
+    // From wherever the window begins: the steps fall elsewhere.
+    for (index, from) in [7.6, 7.7, 7.75, 7.8].into_iter().enumerate() {
+        for beta in [0.002, 0.004, 0.006, 0.008, 0.01] {
+            let found = answer(&json!({
+                "task": "continue", "parameter": "omega", "from": from, "to": 8.09, "doublings": 0,
+                "parameters": {"alpha": 5e-7, "theta": 0, "beta": beta}, "model": {"modes": 1, "force": "exact"},
+            }));
+            changes_are_told(&found, &(from, beta));
+            let doublings = those(&found["branches"][0]["bifurcations"], "kind", "period_doubling").count();
+            assert_eq!(doublings, 1, "{from} {beta}");
+        }
+        let found = answer(&json!({
+            "task": "continue", "parameter": "omega", "from": 3.5 + 0.05 * index as f64, "to": 4.6, "doublings": 0,
+            "parameters": {"alpha": 1e-6, "theta": 0, "beta": 0.002},
+        }));
+        changes_are_told(&found, &index);
+        let folds: Vec<f64> = those(&found["branches"][0]["bifurcations"], "kind", "fold")
+            .map(|fold| number(&fold["value"]))
+            .collect();
+        // Where another implementation of the continuation turns back.
+        assert!(folds.len() == 1 && (folds[0] - 3.853395).abs() < 1e-5, "{folds:?}");
+    }
+    // Along another number, with four modes.
+    for (from, to) in [(0.236, 0.238), (0.22, 0.25), (0.0, 0.24)] {
+        let found = answer(&json!({
+            "task": "continue", "parameter": "eta", "from": from, "to": to, "doublings": 0,
+            "parameters": {"alpha": 2.524403923961825e-6, "beta": 0.003101710393628818, "omega": 17.94373697606927,
+                "theta": 5.287957244448741e-6},
+            "model": {"modes": 4, "force": "exact"},
+        }));
+        changes_are_told(&found, &(from, to));
+        let doublings = those(&found["branches"][0]["bifurcations"], "kind", "period_doubling");
+        let values: Vec<f64> = doublings.map(|doubling| number(&doubling["value"])).collect();
+        assert!(values.iter().any(|value| (value - 0.2370306).abs() < 1e-6), "{from} {to}: {values:?}");
+    }
+}
+
+#[test]
+fn an_open_tongue_is_crossed_in_few_steps() {
+    let found = answer(&json!({
+        "task": "continue", "parameter": "omega", "from": 7.8, "to": 8.4, "doublings": 0,
+        "parameters": {"alpha": 1e-4, "theta": 0, "beta": 0.01}, "model": {"modes": 1, "force": "exact"},
+    }));
+    let branch = &found["branches"][0];
+    assert_eq!(branch["end"]["kind"], "range");
+    assert!(list(&branch["points"]).len() < 150, "{}", list(&branch["points"]).len());
+}

@@ -8,6 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::plane::Axis;
+use crate::dynamics::orbits::newton::ROUNDING;
 use crate::dynamics::orbits::{OrbitError, OrbitSolver, PeriodMap};
 use crate::model::{Along, Parameter, ParameterSet, ReducedSystem};
 
@@ -17,8 +18,6 @@ const MAX_ITERATIONS: usize = 12;
 const RENEWAL: usize = 4;
 /// A correction below this is the last one.
 const SETTLED: f64 = 1e-9;
-/// A defect below this is rounding, whatever correction a nearly singular matrix makes of it.
-const ROUNDING: f64 = 1e-14;
 /// Longest step of a difference quotient in a parameter, relative to the width of its range.
 pub(super) const DIFFERENCE: f64 = 1e-6;
 /// Smallest component of a unit vector along a parameter by which a difference quotient's step is scaled.

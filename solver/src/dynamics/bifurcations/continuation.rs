@@ -12,6 +12,7 @@ use super::branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course, MOST_EF
 use super::{pace, plane::Axis};
 use crate::dynamics::integration::measures::Observer;
 use crate::dynamics::orbits::floquet::eigenvector;
+use crate::dynamics::orbits::period_map::{distance, scales};
 use crate::dynamics::orbits::{Instability, OrbitError};
 use crate::model::ReducedSystem;
 
@@ -22,16 +23,26 @@ const GROWTH: f64 = 1.5;
 const AHEAD: f64 = 0.9;
 /// Smallest cosine between the tangents at the ends of a step.
 const STRAIGHT: f64 = 0.97;
-/// Accuracy of a located point, in the same units.
-const LOCATED: f64 = 1e-9;
-/// The same for the place where a doubled branch closes, on which the parameter depends quadratically.
+/// Accuracy of a located point, in the same units. Where there is nearly no damping, a multiplier crosses the circle this
+/// close to where it meets another.
+const LOCATED: f64 = 1e-12;
+/// The same for the place where a doubled branch closes, on which the parameter depends quadratically, and for the
+/// parameter there.
 const CLOSED: f64 = 1e-6;
+const HALVED: f64 = 1e-9;
 /// Secants that locate the place on the orbit of half the period.
 const MOST_SECANTS: usize = 12;
 /// Largest difference from the orbit that a branch began with, in the units of its place, at which it has come back.
 const RETURNED: f64 = 1e-6;
-/// Distance from the unit circle beyond which a zero of a test function was not a change of stability.
+/// Largest difference of the states of one orbit, relative to its amplitude.
+const SAME: f64 = 1e-6;
+/// Distance from the unit circle beyond which a zero of the test function of tori was not a change of stability.
 const ON_CIRCLE: f64 = 1e-4;
+/// Distance from 1 or -1 beyond which that of a fold or a doubling was not one. Two multipliers that nearly coincide there, as
+/// damping that is nearly none makes them, are good to half the digits.
+const ON_AXIS: f64 = 1e-3;
+/// A multiplier this close to the unit circle may be on either side of it.
+const NEUTRAL: f64 = 1e-8;
 /// Distances at which the doubled branch is looked for beside its origin, in units of the gap.
 const OFFSETS: [f64; 3] = [3e-3, 1e-2, 3e-2];
 
@@ -50,6 +61,38 @@ pub fn follow_branch(system: &ReducedSystem, state: &[f64], course: &Course) -> 
     along[start.len() - 1] = if course.upwards { 1.0 } else { -1.0 };
     let heading = family.tangent(&start, &along)?;
     Follower::new(family, course).run(start, heading)
+}
+
+/// Follows the forced motions through the range of `course` from its low end and, where that does not come through to the one of
+/// the high end, from there, too. `forced` gives the device with a value of the parameter, and the state of its forced motion.
+/// The second is `None` where the first arrives.
+///
+/// # Errors
+/// Of each its own: those of `forced` at its end, and of [`follow_branch`].
+pub fn follow_forced(
+    forced: &dyn Fn(f64) -> Result<(ReducedSystem, Vec<f64>), OrbitError>,
+    course: &Course,
+) -> (Result<Branch, OrbitError>, Option<Result<Branch, OrbitError>>) {
+    let follow = |(system, state): &(ReducedSystem, Vec<f64>), upwards| {
+        follow_branch(system, state, &Course { upwards, ..*course })
+    };
+    let low = forced(course.range.0).and_then(|start| follow(&start, true));
+    let high = match forced(course.range.1) {
+        Ok(start) if low.as_ref().is_ok_and(|branch| arrives(branch, course, &start)) => return (low, None),
+        Ok(start) => follow(&start, false),
+        Err(reason) => Err(reason),
+    };
+    (low, Some(high))
+}
+
+/// Whether a branch ends in the motion with this state at the high end of the course.
+fn arrives(branch: &Branch, course: &Course, (system, state): &(ReducedSystem, Vec<f64>)) -> bool {
+    let (scales, rest) = (scales(system), vec![0.0; state.len()]);
+    let last = branch.points.last().filter(|last| last.value == course.range.1);
+    branch.end == BranchEnd::Range
+        && last.is_some_and(|last| {
+            distance(&last.state, state, &scales) <= SAME * distance(&last.state, &rest, &scales)
+        })
 }
 
 /// Follows the branch of twice the period that leaves `origin`, a period doubling on a branch of `course`.
@@ -112,6 +155,21 @@ fn crosses_half(here: &Station, next: &Station) -> bool {
     here.halving.as_ref().zip(next.halving.as_ref()).is_some_and(|(before, after)| before.dot(after) <= 0.0)
 }
 
+/// Whether the bifurcations `found` between two stations make as many multipliers leave or enter the unit circle as do.
+fn account_for(found: &[Bifurcation], here: &Station, next: &Station) -> bool {
+    let outside = |station: &Station, least: f64| {
+        station.point.multipliers.iter().filter(|mu| mu.norm() > least).count() as i32
+    };
+    let range = |station: &Station| (outside(station, 1.0 + NEUTRAL), outside(station, 1.0 - NEUTRAL));
+    let ((least, most), (least_next, most_next)) = (range(here), range(next));
+    // Each takes one or two across, one way or the other.
+    let reached = found.iter().fold(vec![0], |sums: Vec<i32>, bifurcation| {
+        let by = if bifurcation.kind == Instability::NeimarkSacker { 2 } else { 1 };
+        sums.iter().flat_map(|sum| [sum - by, sum + by]).collect()
+    });
+    reached.iter().any(|sum| (least_next - most..=most_next - least).contains(sum))
+}
+
 struct Follower {
     family: Family<1>,
     course: Course,
@@ -161,17 +219,27 @@ impl Follower {
             let home = if self.branch.points.len() > 2 { self.returned(&phases, &here, &next) } else { None };
             let (returned, next) = (home.is_some(), home.unwrap_or(next));
             let length = (&next.place - &here.place).dot(&here.tangent);
-            let end = match self.halved(&here, &next, length) {
-                Ok(Some(value)) => Some(BranchEnd::Halved { value }),
-                Ok(None) => {
-                    let found = self.find_bifurcations(&here, &next, length);
-                    found.err().map(|reason| BranchEnd::Lost { reason })
-                }
-                Err(reason) => Some(BranchEnd::Lost { reason }),
+            let passed = match self.halved(&here, &next, length) {
+                Ok(Some(value)) => Err(BranchEnd::Halved { value }),
+                Ok(None) => self
+                    .bifurcations_between(&here, &next, length)
+                    .map_err(|reason| BranchEnd::Lost { reason }),
+                Err(reason) => Err(BranchEnd::Lost { reason }),
             };
-            if let Some(end) = end {
-                self.branch.end = end;
-                break;
+            let unclear = match &passed {
+                Ok(found) => !account_for(found, &here, &next),
+                Err(end) => matches!(end, BranchEnd::Lost { .. }),
+            };
+            if unclear && step > STEPS.1 {
+                step *= 0.5;
+                continue;
+            }
+            match passed {
+                Ok(found) => self.branch.bifurcations.extend(found),
+                Err(end) => {
+                    self.branch.end = end;
+                    break;
+                }
             }
             self.branch.points.push(next.point.clone());
             if border || returned {
@@ -322,16 +390,22 @@ impl Follower {
             let now = test(value)?;
             change *= now / (before - now);
             before = now;
-            if change.abs() <= LOCATED * (high - low) {
+            if change.abs() <= HALVED * (high - low) {
                 return Ok(value + change);
             }
         }
         Err(OrbitError::NoConvergence { iterations: MOST_SECANTS, residual: before.abs() })
     }
 
-    /// Locates the changes of stability between two stations, `length` apart along the first one's tangent.
-    fn find_bifurcations(&mut self, here: &Station, next: &Station, length: f64) -> Result<(), OrbitError> {
+    /// The changes of stability between two stations, `length` apart along the first one's tangent.
+    fn bifurcations_between(
+        &mut self,
+        here: &Station,
+        next: &Station,
+        length: f64,
+    ) -> Result<Vec<Bifurcation>, OrbitError> {
         let last = here.place.len() - 1;
+        let mut all = Vec::new();
         for kind in [Instability::Fold, Instability::PeriodDoubling, Instability::NeimarkSacker] {
             let test = |station: &Station| match kind {
                 // The parameter turns at a fold; its test function also vanishes where branches cross.
@@ -343,14 +417,19 @@ impl Follower {
                 continue;
             }
             let found = self.between(here, (0.0, a), (length, b), LOCATED, test)?;
-            let on_circle =
-                |mu: &Complex<f64>| (mu.norm() - 1.0).abs() < ON_CIRCLE && Instability::of(*mu) == kind;
-            if found.point.multipliers.iter().any(on_circle) {
+            let crosses = |mu: &Complex<f64>| match kind {
+                Instability::Fold => (mu - 1.0).norm() < ON_AXIS,
+                Instability::PeriodDoubling => (mu + 1.0).norm() < ON_AXIS,
+                Instability::NeimarkSacker => {
+                    (mu.norm() - 1.0).abs() < ON_CIRCLE && Instability::of(*mu) == kind
+                }
+            };
+            if found.point.multipliers.iter().any(crosses) {
                 let after = self.branch.points.len();
-                self.branch.bifurcations.push(Bifurcation { after, kind, point: found.point });
+                all.push(Bifurcation { after, kind, point: found.point });
             }
         }
-        Ok(())
+        Ok(all)
     }
 
     /// The station beyond `here` where `test` vanishes, between two steps with values of opposite sign.

@@ -24,7 +24,7 @@ pub use boundary::{
     CriticalExcitation, Loss, ResonanceBoundary, critical_excitation, largest_multipliers, resonance_boundary,
 };
 pub use branch::{Bifurcation, Branch, BranchEnd, BranchPoint, Course};
-pub use continuation::{follow_branch, follow_doubled};
+pub use continuation::{follow_branch, follow_doubled, follow_forced};
 pub use curves::{Curve, CurveEnd, Line, SpecialKind, Start, find_curves, trace_curve};
 pub use forced::ForcedMotion;
 pub use plane::{Axis, Plane};

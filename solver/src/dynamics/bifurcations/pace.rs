@@ -52,9 +52,9 @@ fn allowed(phase: f64, multipliers: &[Complex<f64>], upper: &[Complex<f64>]) -> 
     // Two modes meet away from the axis where their frequencies add up to the excitation's: each goes half the way.
     let to_other = own.into_iter().flat_map(|own| {
         let others = upper.iter().filter(move |other| **other != own);
-        others.map(move |other| (0.5 * (own.arg() - other.arg()).abs(), 0.5 * (own * other).norm().ln()))
+        others.map(move |other| (0.5 * (own.ln() - other.ln()).norm(), 0.5 * (own * other).norm().ln()))
     });
-    // On the axis, or together, as far as half the decay: as narrow is a tongue that has just opened.
+    // Where they come together, as far as half the decay: as narrow is a tongue that has just opened.
     let freely = |(distance, decay): (f64, f64)| OF_DISTANCE * distance.max(-0.5 * decay);
     let meetings = to_axis.into_iter().chain(on_axis(phase, multipliers)).chain(to_other);
     meetings.map(freely).fold(TURN.0, f64::min).max(TURN.1)
@@ -72,15 +72,18 @@ fn own(phase: f64, multipliers: &[Complex<f64>]) -> Option<Complex<f64>> {
     upper.min_by(|a, b| away(a).total_cmp(&away(b))).copied()
 }
 
-/// The distance of a mode's pair from the axis, none, and the logarithm of its modulus, where it is on the side on which the
-/// mode is: the one is as much further in as the other is out.
+/// Of a mode's pair that is on the axis, on the side on which the mode is: half the difference of its logarithms, and their
+/// mean. A tongue that is 2 w wide parts them by 2 w in its middle and by less elsewhere. So its far end is no nearer than
+/// half their difference; its near one may be, but changes the sign of what is watched.
 fn on_axis(phase: f64, multipliers: &[Complex<f64>]) -> Option<(f64, f64)> {
     let side = if folded(phase) > FRAC_PI_2 { -1.0 } else { 1.0 };
     let real = multipliers.iter().filter(|own| own.im == 0.0 && own.re * side > 0.0);
     // The circuit's own is positive.
-    let pair = if side > 0.0 { 3 } else { 2 };
-    let moduli: Vec<f64> = real.map(|own| own.norm()).take(pair).collect();
-    (moduli.len() == pair).then(|| (0.0, 0.5 * (moduli[0] * moduli[1]).ln()))
+    let count = if side > 0.0 { 3 } else { 2 };
+    let logs: Vec<f64> = real.map(|own| own.norm().ln()).take(count).collect();
+    let (first, others) = logs.split_first().filter(|_| logs.len() == count)?;
+    let second = others.iter().min_by(|a, b| (first + *a).abs().total_cmp(&(first + *b).abs()))?;
+    Some((0.5 * (first - second), 0.5 * (first + second)))
 }
 
 /// Whether the state `there` is elsewhere than where the tangent from another place leads, at `predicted`, seen by its own
@@ -106,10 +109,15 @@ mod tests {
             let found = allowed(angle, &on_circle(angle), &[]);
             assert!((found / expected - 1.0).abs() < 1e-3, "{angle}: {found} for {expected}");
         }
-        // On the axis the two are apart, and decay together as before.
+        // On the axis the two are apart by what the tongue still has before it, or decay together as before.
         let real = [Complex::new(-1.1, 0.0), Complex::new(-0.9, 0.0), Complex::new(0.5, 0.0)];
-        let expected = -0.125 * 0.99_f64.ln();
+        let expected = 0.25 * (1.1_f64 / 0.9).ln();
         assert!((allowed(3.1, &real, &[]) / expected - 1.0).abs() < 1e-9);
+        let closed = [Complex::new(-0.9, 0.0), Complex::new(-0.9, 0.0)];
+        assert!((allowed(3.1, &closed, &[]) / (-0.25 * 0.9_f64.ln()) - 1.0).abs() < 1e-9);
+        // Of three positive ones the circuit's own is none of the pair.
+        let folding = [1.02, 0.99, 0.978].map(|own| Complex::new(own, 0.0));
+        assert!((allowed(0.05, &folding, &[]) / (0.25 * (1.02_f64 / 0.978).ln()) - 1.0).abs() < 1e-9);
         assert_eq!(allowed(0.1, &real, &[]), 0.4);
         // Of two modes each has its own.
         let two: Vec<_> = on_circle(0.1).into_iter().chain(on_circle(2.0)).collect();

@@ -15,6 +15,8 @@ use crate::model::ReducedSystem;
 const MAX_ITERATIONS: usize = 40;
 /// A correction below this fraction of the gap is the last one: the next would be its square.
 const SETTLED: f64 = 1e-10;
+/// A defect below this is rounding, whatever correction a nearly singular matrix makes of it.
+pub(in crate::dynamics) const ROUNDING: f64 = 1e-14;
 /// Close to a fold corrections shrink no further than the rounding of the defect allows: iterations from which, and defect
 /// and correction below which, the orbit counts as found. Its state is then good to that correction only.
 const STALLED: (usize, f64, f64) = (12, 1e-11, 1e-6);
@@ -163,6 +165,9 @@ impl OrbitSolver {
                 continue;
             }
             let correction = self.correction()?;
+            if self.residual <= ROUNDING && error <= 1.0 && self.largest(&correction) > STALLED.2 {
+                return Ok(fresh);
+            }
             let stalled = *iterations >= STALLED.0
                 && self.residual <= STALLED.1
                 && self.largest(&correction) <= STALLED.2;

@@ -32,9 +32,14 @@ const STEP: f64 = 1e-3;
 /// beyond all bounds there, is lost in the errors.
 const REAL: f64 = 1e-5;
 
+/// Distance of the critical multiplier from where it should be, relative to that from the next one, within which it is told
+/// apart from it.
+const ALONE: f64 = 0.1;
+
 /// The coefficient of the normal form of a bifurcation of one parameter, as that of a [`super::CurvePoint`]: of the
 /// `kind` at which the orbit of `periods` excitation periods of `system` is that has this `state` (length 2N + 1) at t = 0.
-/// `None` at a fold, and where it has no finite value.
+/// `None` at a fold, where it has no finite value, and where another multiplier is so near that the state is not known well
+/// enough to tell the critical one's eigenvector from its neighbour's.
 ///
 /// # Errors
 /// Those of the map at the orbit and beside it, [`OrbitError::Singular`] where an eigenvector cannot be computed.
@@ -52,8 +57,24 @@ pub fn normal_form(
     let beta = family.beta();
     family.solver.evaluate_at(state, beta, periods)?;
     let multipliers = family.solver.multipliers()?;
-    let Some(condition) = Condition::at(kind, &multipliers) else { return Ok(None) };
+    let Some(condition) = Condition::at(kind, &multipliers).filter(|_| is_alone(kind, &multipliers)) else {
+        return Ok(None);
+    };
     Ok(NormalForm::new(&mut family, condition, None)?.and_then(|form| form.coefficient))
+}
+
+/// Whether the critical one of the `multipliers` is of its `kind`, and much nearer to where it should be than to any other.
+fn is_alone(kind: Instability, multipliers: &[Complex<f64>]) -> bool {
+    let off = |mu: &Complex<f64>| match kind {
+        Instability::Fold => (mu - 1.0).norm(),
+        Instability::PeriodDoubling => (mu + 1.0).norm(),
+        Instability::NeimarkSacker => (mu.norm() - 1.0).abs(),
+    };
+    let fits = multipliers.iter().enumerate().filter(|(_, mu)| Instability::of(**mu) == kind);
+    let Some((critical, mu)) = fits.min_by(|a, b| off(a.1).total_cmp(&off(b.1))) else { return false };
+    let others = multipliers.iter().enumerate().filter(|(i, _)| *i != critical);
+    let nearest = others.map(|(_, other)| (other - mu).norm()).fold(f64::INFINITY, f64::min);
+    off(mu) <= ALONE * nearest
 }
 
 /// The coefficient at a place and what it was computed with.

@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::curve::{Curve, Start};
 use super::known::KnownCurves;
 use super::tracer::trace_curve;
-use crate::dynamics::bifurcations::branch::{Branch, Course};
-use crate::dynamics::bifurcations::continuation::{follow_branch, follow_doubled};
+use crate::dynamics::bifurcations::branch::{Bifurcation, Branch, Course};
+use crate::dynamics::bifurcations::continuation::{follow_doubled, follow_forced};
 use crate::dynamics::bifurcations::plane::{Axis, Plane};
 use crate::dynamics::orbits::march::Forced;
 use crate::dynamics::orbits::{Instability, OrbitError, OrbitSolver};
@@ -84,9 +84,8 @@ pub fn search_lines(system: &ReducedSystem, plane: &Plane, search: Search) -> Re
     Ok(lines)
 }
 
-/// The bifurcations of the forced motion on a line across the plane, followed through its folds from the lower end of
-/// the line and, where that does not lead to the upper one, from there. With `doubled` also those of the doubled
-/// motions that branch off.
+/// The bifurcations of the forced motion on a line across the plane, followed through its folds as by [`follow_forced`]. With
+/// `doubled` also those of the doubled motions that branch off.
 ///
 /// # Errors
 /// [`OrbitError`] when the forced motion exists at neither end, or a doubled motion cannot be found at its birth.
@@ -98,41 +97,50 @@ pub fn bifurcations_along_line(
 ) -> Result<Vec<Start>, OrbitError> {
     let along = line.along.min(1);
     let axis = plane.axes()[along];
-    let mut starts = Vec::new();
-    let mut failure = None;
-    for upwards in [true, false] {
-        let (low, high) = axis.range;
-        let (from, to) = if upwards { (low, high) } else { (high, low) };
+    let at = |value: f64| {
         let mut at = [line.at; 2];
-        at[along] = from;
-        let (system, branch) = match branch_from(system, plane, at, axis, upwards) {
-            Ok(followed) => followed,
-            // The other end may do.
-            Err(error) => {
-                failure = failure.or(Some(error));
-                continue;
-            }
-        };
-        collect(&branch, 1, along, at, &mut starts);
-        if doubled {
-            for birth in branch.bifurcations.iter().filter(|birth| birth.kind == Instability::PeriodDoubling)
-            {
-                let branch = follow_doubled(&system, birth, &course(axis, upwards))?;
-                collect(&branch, 2, along, at, &mut starts);
-            }
+        at[along] = value;
+        at
+    };
+    let forced = |value| {
+        let system = plane.system(system, at(value))?;
+        let state = forced_state(&system)?;
+        Ok((system, state))
+    };
+    let Axis { parameter, range } = axis;
+    let course = Course {
+        parameter,
+        along: Along::default(),
+        range,
+        periods: 1,
+        upwards: true,
+        most_points: MOST_POINTS,
+    };
+    let branches: Vec<Branch> = match follow_forced(&forced, &course) {
+        (Err(reason), None | Some(Err(_))) => return Err(reason),
+        (low, high) => [low.ok(), high.and_then(Result::ok)].into_iter().flatten().collect(),
+    };
+    let start = |periods| {
+        move |found: &Bifurcation| Start {
+            kind: found.kind,
+            periods,
+            at: at(found.point.value),
+            state: found.point.state.clone(),
         }
-        let crossed = branch.points.last().is_some_and(|point| point.value == to);
-        if system.undamped() {
-            starts.retain(|start: &Start| start.kind != Instability::NeimarkSacker);
-        }
-        if crossed || !upwards {
-            return Ok(starts);
+    };
+    let mut starts = Vec::new();
+    for branch in branches {
+        starts.extend(branch.bifurcations.iter().map(start(1)));
+        let births = branch.bifurcations.iter().filter(|birth| birth.kind == Instability::PeriodDoubling);
+        for birth in births.filter(|_| doubled) {
+            let system = plane.system(system, at(birth.point.value))?;
+            starts.extend(follow_doubled(&system, birth, &course)?.bifurcations.iter().map(start(2)));
         }
     }
-    match failure {
-        Some(error) if starts.is_empty() => Err(error),
-        _ => Ok(starts),
+    if plane.system(system, at(range.0))?.undamped() {
+        starts.retain(|start: &Start| start.kind != Instability::NeimarkSacker);
     }
+    Ok(starts)
 }
 
 /// Finds the curves of the forced motion in the window `plane` of `system`, with `search.doubled` also those of the
@@ -179,39 +187,10 @@ fn trace_all(
     }
 }
 
-fn course(axis: Axis, upwards: bool) -> Course {
-    let Axis { parameter, range } = axis;
-    let along = Along::default();
-    Course { parameter, along, range, periods: 1, upwards, most_points: MOST_POINTS }
-}
-
-/// The system at the parameters `at`, and the branch of forced motions from there along `axis`.
-fn branch_from(
-    system: &ReducedSystem,
-    plane: &Plane,
-    at: [f64; 2],
-    axis: Axis,
-    upwards: bool,
-) -> Result<(ReducedSystem, Branch), OrbitError> {
-    let system = plane.system(system, at)?;
-    let state = forced_state(&system)?;
-    let branch = follow_branch(&system, &state, &course(axis, upwards))?;
-    Ok((system, branch))
-}
-
 /// The state of the motion that grows out of rest as beta grows from 0 to that of `system`.
 fn forced_state(system: &ReducedSystem) -> Result<Vec<f64>, OrbitError> {
     let mut solver = OrbitSolver::new(system);
     let beta = system.parameters.beta;
     let there = Forced::at_rest(&mut solver)?.march_to(&mut solver, beta)?;
     there.map(|forced| forced.state).ok_or(OrbitError::MotionEnds { beta })
-}
-
-/// Adds the bifurcations of `branch`, along the axis `along` through `at`.
-fn collect(branch: &Branch, periods: usize, along: usize, at: [f64; 2], starts: &mut Vec<Start>) {
-    starts.extend(branch.bifurcations.iter().map(|found| {
-        let mut at = at;
-        at[along] = found.point.value;
-        Start { kind: found.kind, periods, at, state: found.point.state.clone() }
-    }));
 }
