@@ -72,15 +72,14 @@ fn drags_under_its_plot(page: &mut Page, place: &str, height: f64) {
     let room = slider.bounds[1] - plot.bounds[3];
     assert!(plot.bounds[1] > 0.0 && room > 60.0, "{place}: {plot:?} over {slider:?}");
     // To one of two places: it may stand at the other.
-    let mut moved = false;
-    for (from, to) in [(0.35, 0.65), (0.65, 0.3)] {
+    let moved = [(0.35, 0.65), (0.65, 0.3)].into_iter().any(|(from, to)| {
         page.swipe(slider.at(from, 0.5), slider.at(to, 0.5));
         let controls = controls(page);
         let is_plot = |control: &Control| control.label.starts_with("Export: ") && control.bounds[1] > 0.0;
         assert!(controls.iter().any(is_plot), "{place}: the plot has gone");
         let same = |control: &&Control| control.role == "Slider" && control.label == slider.label;
-        moved |= controls.iter().find(same).is_some_and(|now| now.number != slider.number);
-    }
+        controls.iter().find(same).is_some_and(|now| now.number != slider.number)
+    });
     assert!(moved, "{place}: {slider:?} did not move");
 }
 
@@ -146,12 +145,13 @@ fn a_vertical_swipe_over_any_slider_scrolls_and_changes_no_value() {
             // The highest first, which is the next to leave.
             let left = seen.into_iter().filter(|slider| !swiped.contains(&slider.label));
             let next = left.min_by(|a, b| a.bounds[1].total_cmp(&b.bounds[1]));
-            let from = next.as_ref().map_or((350.0, 740.0), |slider| slider.at(0.7, 0.5));
+            // Less than from slider to slider, so that none leaves unswiped, or than all in sight where they are done.
+            let (from, far) =
+                next.as_ref().map_or(((350.0, 740.0), 250.0), |slider| (slider.at(0.7, 0.5), 60.0));
             if let Some(next) = &next {
                 swiped.insert(next.label.clone());
             }
-            // Less than from slider to slider, so that none leaves unswiped.
-            page.swipe(from, (from.0 + 4.0, from.1 - 60.0));
+            page.swipe(from, (from.0 + 4.0, from.1 - far));
             sleep(Duration::from_millis(60));
             assert_eq!(page.state()["view"], state, "{tab}: {next:?}");
             let after: Vec<_> =

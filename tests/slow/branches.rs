@@ -575,3 +575,16 @@ fn an_open_tongue_is_crossed_in_few_steps() {
     assert_eq!(branch["end"]["kind"], "range");
     assert!(list(&branch["points"]).len() < 150, "{}", list(&branch["points"]).len());
 }
+
+#[test]
+fn a_correction_that_goes_astray_does_not_lose_the_branch() {
+    // The voltage falls to half within a ten-thousandth of this range.
+    let found = answer(&json!({
+        "task": "continue", "parameter": "c", "from": 1e-8, "to": 1e-4,
+        "parameters": {"kappa": 2.019172441589038e-7}, "model": {"modes": 1},
+    }));
+    let [branch] = list(&found["branches"]) else { panic!("{found}") };
+    assert_eq!(branch["end"]["kind"], "range");
+    let points = list(&branch["points"]);
+    assert_eq!((number(&points[0]["value"]), number(&points[points.len() - 1]["value"])), (1e-8, 1e-4));
+}

@@ -16,8 +16,8 @@ pub use attractors::{Effort, Exponent, Inquiry, Motion, Reached, Settler, Verdic
 pub use bifurcations::{
     Axis, Bifurcation, Branch, BranchEnd, BranchPoint, Course, CriticalExcitation, Curve, CurveEnd,
     ForcedMotion, Line, Loss, Plane, ResonanceBoundary, SpecialKind, Start, Tongue, critical_excitation,
-    find_curves, follow_branch, follow_doubled, follow_forced, largest_multipliers, resonance_boundary, trace_curve,
-    trace_tongue,
+    find_curves, follow_branch, follow_doubled, follow_forced, largest_multipliers, resonance_boundary,
+    trace_curve, trace_tongue,
 };
 pub use integration::{
     Collocation, ESCAPE_DISPLACEMENT, IntegrationError, Measures, NODES, Ongoing, Outcome, Reach, RunError,

@@ -13,6 +13,9 @@ pub(crate) const SHIFT: char = '\u{e008}';
 pub(crate) const CONTROL: char = '\u{e009}';
 pub(crate) const ESCAPE: char = '\u{e00c}';
 
+/// Moves of a finger in a swipe; the browser waits for the page at each.
+const STEPS: u32 = 6;
+
 impl Page {
     pub(crate) fn click(&self, at: (f64, f64)) {
         self.drag(&[at], Duration::ZERO);
@@ -66,8 +69,8 @@ impl Page {
             json!({ "type": "pointerMove", "duration": 0, "x": from.0, "y": from.1 }),
             json!({ "type": "pointerDown", "button": 0 }),
         ];
-        for step in 1..=12 {
-            let part = f64::from(step) / 12.0;
+        for step in 1..=STEPS {
+            let part = f64::from(step) / f64::from(STEPS);
             let at = (from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1));
             moves.push(json!({ "type": "pointerMove", "duration": 16, "x": at.0, "y": at.1 }));
         }

@@ -276,6 +276,15 @@ impl Family<1> {
         guess: &DVector<f64>,
         normal: &DVector<f64>,
     ) -> Result<DVector<f64>, OrbitError> {
+        let corrected = self.corrected(guess, normal);
+        if corrected.is_err() {
+            // A correction that went astray may have renewed them far away.
+            self.columns = None;
+        }
+        corrected
+    }
+
+    fn corrected(&mut self, guess: &DVector<f64>, normal: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
         let mut place = guess.clone();
         let mut residual = f64::INFINITY;
         for iteration in 1..=MAX_ITERATIONS {

@@ -216,8 +216,13 @@ fn live() -> impl Strategy<Value = LiveView> {
 /// Every field is named: one that is added to a view is asked for here by the compiler.
 pub(super) fn view() -> impl Strategy<Value = View> {
     let languages = option::of(select(&Language::ALL[..]));
-    let looks =
-        (option::of(any::<bool>()), any::<bool>(), option::of(any::<bool>()), option::of(any::<bool>()), languages);
+    let looks = (
+        option::of(any::<bool>()),
+        any::<bool>(),
+        option::of(any::<bool>()),
+        option::of(any::<bool>()),
+        languages,
+    );
     let front = (select(&TABS[..]), select(&MAPS[..]), select(&LAYERS[..]), option::of(select(Panel::ALL)));
     let plane = (0..5_usize, 1..5_usize)
         .prop_map(|(x, step)| [curves::PARAMETERS[x], curves::PARAMETERS[(x + step) % 5]]);

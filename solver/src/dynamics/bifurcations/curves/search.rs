@@ -130,15 +130,16 @@ pub fn bifurcations_along_line(
     };
     let mut starts = Vec::new();
     for branch in branches {
+        let Some(first) = branch.points.first() else { continue };
+        let device = plane.system(system, at(first.value))?;
         starts.extend(branch.bifurcations.iter().map(start(1)));
         let births = branch.bifurcations.iter().filter(|birth| birth.kind == Instability::PeriodDoubling);
         for birth in births.filter(|_| doubled) {
-            let system = plane.system(system, at(birth.point.value))?;
-            starts.extend(follow_doubled(&system, birth, &course)?.bifurcations.iter().map(start(2)));
+            starts.extend(follow_doubled(&device, birth, &course)?.bifurcations.iter().map(start(2)));
         }
-    }
-    if plane.system(system, at(range.0))?.undamped() {
-        starts.retain(|start: &Start| start.kind != Instability::NeimarkSacker);
+        if device.undamped() {
+            starts.retain(|start: &Start| start.kind != Instability::NeimarkSacker);
+        }
     }
     Ok(starts)
 }
