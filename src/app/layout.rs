@@ -82,7 +82,7 @@ fn top_panel(ui: &mut Ui, name: &'static str, frame: egui::Frame, contents: impl
 /// Contents that scroll when they are too tall, with a margin at the right in which the scroll bar floats. Those of
 /// another `tab` than before begin at their top.
 fn scrolled(ui: &mut Ui, tab: Option<Tab>, contents: impl FnOnce(&mut Ui)) {
-    let mut area = egui::ScrollArea::vertical().auto_shrink(false);
+    let mut area = widgets::touch::scroll_area(ui.ctx()).auto_shrink(false);
     let id = ui.scope_id().with("tab");
     if ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(id, tab), tab)) != tab {
         area = area.vertical_scroll_offset(0.0);

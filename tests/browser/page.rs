@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// How long anything may take on a slow machine.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 /// The colours that the system asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,6 +6,7 @@ use super::{Context, beam, device, grid, live, plots, structure, verdict};
 use crate::app::embed::{Control, Embed, Part};
 use crate::app::text::{fill, tr};
 use crate::app::view::View;
+use crate::app::widgets::touch;
 use crate::app::{keyboard, link, theme};
 
 /// Space around everything and between panels, points.
@@ -26,7 +27,7 @@ const WAY_OUT: f32 = 20.0;
 pub(in crate::app) fn show(context: &mut Context<'_>, embed: &Embed, notice: Option<&str>, ui: &mut Ui) {
     let page = egui::Frame::new().fill(theme::tokens(ui).page).inner_margin(MARGIN);
     egui::CentralPanel::default().frame(page).show(ui, |ui| {
-        let area = egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let area = touch::scroll_area(ui.ctx()).auto_shrink(false).show(ui, |ui| {
             keyboard::keep_focus_in_view(ui);
             ui.spacing_mut().item_spacing.y = GAP;
             contents(context, embed, notice, ui);

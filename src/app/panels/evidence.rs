@@ -6,6 +6,7 @@ use super::Context;
 use super::spec::{Place, Spec};
 use crate::app::text::{marked, say, tr};
 use crate::app::view::Tab;
+use crate::app::widgets::touch;
 use crate::app::{fonts, theme};
 use crate::dynamics::attractors::evidence::EvidenceSource;
 
@@ -17,7 +18,7 @@ pub(super) const PANEL: Spec =
         .without_plot();
 
 fn contents(context: &mut Context<'_>, ui: &mut Ui) {
-    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| list(context, ui));
+    touch::scroll_area(ui.ctx()).auto_shrink(false).show(ui, |ui| list(context, ui));
 }
 
 fn list(context: &mut Context<'_>, ui: &mut Ui) {

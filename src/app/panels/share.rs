@@ -9,7 +9,7 @@ use crate::app::embed;
 use crate::app::exporting::request;
 use crate::app::text::{fill, tr};
 use crate::app::view::View;
-use crate::app::widgets::{Icon, icon_button, qr_code};
+use crate::app::widgets::{Icon, icon_button, qr_code, touch};
 use crate::app::{fonts, link, theme};
 use crate::export::snippet;
 
@@ -156,7 +156,7 @@ fn choose_parts(context: &Context<'_>, ui: &mut Ui, memory: &mut Memory, mut cho
     let count = if 2.0 * width <= ui.available_width() { 2 } else { 1 };
     // There are more than fit a low page with what stands around them.
     let room = PARTS * ui.ctx().content_rect().height();
-    egui::ScrollArea::vertical().id_salt("parts").max_height(room).show(ui, |ui| {
+    touch::scroll_area(ui.ctx()).id_salt("parts").max_height(room).show(ui, |ui| {
         ui.columns(count, |columns| {
             for (i, (_, _, name)) in parts.iter().enumerate() {
                 let mut shown = chosen >> i & 1 == 1;

@@ -12,7 +12,7 @@ use crate::app::session::{Shown, Status};
 use crate::app::text::{fill, tr};
 use crate::app::view::Tab;
 use crate::app::widgets::icon::BUTTON_SIDE;
-use crate::app::widgets::{Icon, icon_button, words_explained};
+use crate::app::widgets::{Icon, icon_button, touch, words_explained};
 use crate::app::{fonts, theme};
 use crate::dynamics::{Outcome, Verdict};
 use crate::model::Demand;
@@ -225,7 +225,7 @@ fn details(ui: &mut Ui, job: LayoutJob, rows: usize) {
     let size = vec2(ui.available_width(), room);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect));
-    let source = ScrollSource { mouse_wheel: false, ..ScrollSource::default() };
+    let source = ScrollSource { mouse_wheel: false, ..touch::source(ui.ctx()) };
     ScrollArea::vertical()
         .auto_shrink(false)
         .max_height(room)

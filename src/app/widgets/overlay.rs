@@ -1,6 +1,8 @@
 //! What lies over the page until it is closed.
 
-use egui::{Context, Id, Modal, ScrollArea, Ui};
+use egui::{Context, Id, Modal, Ui};
+
+use super::touch;
 
 /// A sheet over the page, known by its name, that Escape or a click beside it closes.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +57,6 @@ impl Overlay {
     pub fn scrolled<R>(ui: &mut Ui, besides: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
         let room = ui.ctx().content_rect().height() - besides;
         // In a modal it would shrink to what its first picture had.
-        ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, content).inner
+        touch::scroll_area(ui.ctx()).max_height(room).min_scrolled_height(room).show(ui, content).inner
     }
 }

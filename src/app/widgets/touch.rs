@@ -1,8 +1,9 @@
 //! What fingers are for. A finger on a plot scrolls the page, as everywhere else on a phone, and two of them zoom the
 //! plot; on a control made for dragging it drags. A mouse drags plots, too.
 
+use egui::scroll_area::ScrollSource;
 use egui::style::ScrollAnimation;
-use egui::{Context, Event, Id, Pos2, Rect, TouchPhase, Ui};
+use egui::{Context, Event, Id, Pos2, Rect, ScrollArea, TouchPhase, Ui};
 
 /// Farther than a press may move and still be a click, points.
 const NO_CLICK: f32 = 30.0;
@@ -51,6 +52,16 @@ pub fn in_use(context: &Context) -> bool {
 pub fn grip(ui: &Ui, rect: Rect) {
     let rect = rect.intersect(ui.clip_rect());
     change(ui.ctx(), |fingers| fingers.grips.push(rect));
+}
+
+/// What scrolls up and down. Under a finger its bar only tells where one is: who swipes along the edge means the page.
+pub fn scroll_area(context: &Context) -> ScrollArea {
+    ScrollArea::vertical().scroll_source(source(context))
+}
+
+/// What such an area is scrolled by.
+pub fn source(context: &Context) -> ScrollSource {
+    ScrollSource { scroll_bar: !in_use(context), ..ScrollSource::default() }
 }
 
 /// Scrolls what is around by a finger that is on something else than the ground.

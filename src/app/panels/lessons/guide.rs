@@ -6,7 +6,7 @@ mod contents;
 mod heading;
 mod shown;
 
-use egui::{Align, Frame, Id, Layout, Margin, Panel, ScrollArea, Ui};
+use egui::{Align, Frame, Id, Layout, Margin, Panel, Ui};
 
 use self::contents::{asked, said};
 use self::heading::{heading, heading_in_row};
@@ -15,6 +15,7 @@ use super::super::Context;
 use crate::app::text::tr;
 use crate::app::theme;
 use crate::app::widgets::icon::BUTTON_SIDE;
+use crate::app::widgets::touch::scroll_area;
 use crate::app::widgets::{Icon, icon_button};
 
 /// Width of the guide beside the plots, and of the page from which it stands there.
@@ -40,7 +41,7 @@ pub(in crate::app) fn guide(context: &mut Context<'_>, ui: &mut Ui) {
             heading(context, ui, shown);
             ui.add_space(8.0);
             let height = ui.available_height() - 40.0;
-            ScrollArea::vertical().id_salt(place).auto_shrink([false, true]).max_height(height).show(
+            scroll_area(ui.ctx()).id_salt(place).auto_shrink([false, true]).max_height(height).show(
                 ui,
                 |ui| {
                     ui.set_max_width(ui.available_width() - 4.0);
@@ -89,7 +90,7 @@ fn below(context: &mut Context<'_>, ui: &mut Ui, shown: Shown, frame: Frame, pla
         if text == 0.0 {
             return;
         }
-        let area = ScrollArea::vertical().id_salt(place).auto_shrink(false).show(ui, |ui| {
+        let area = scroll_area(ui.ctx()).id_salt(place).auto_shrink(false).show(ui, |ui| {
             ui.set_max_width(ui.available_width() - 8.0);
             if columns {
                 side_by_side(context, ui, shown);
