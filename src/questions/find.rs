@@ -117,6 +117,7 @@ const fn default_generations() -> usize {
 impl Question for Find {
     const TASK: &'static str = "find";
     const TAKES: &'static [&'static str] = &["initial", "t_end"];
+    const COUNTS_LOSS: bool = true;
     type Answer = FindAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<FindAnswer, RequestError> {

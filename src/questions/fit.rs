@@ -79,6 +79,7 @@ pub struct Fitted {
 
 impl Question for Fit {
     const TASK: &'static str = "fit";
+    const COUNTS_LOSS: bool = true;
     type Answer = FitAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<FitAnswer, RequestError> {

@@ -143,6 +143,7 @@ pub struct Band {
 impl Question for Harvest {
     const TASK: &'static str = "harvest";
     const TAKES: &'static [&'static str] = &["initial", "t_end"];
+    const COUNTS_LOSS: bool = true;
     type Answer = HarvestAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<HarvestAnswer, RequestError> {

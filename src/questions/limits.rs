@@ -36,6 +36,7 @@ pub struct LimitsAnswer {
 impl Question for Limits {
     const TASK: &'static str = "limits";
     const TAKES: &'static [&'static str] = &["initial", "t_end"];
+    const COUNTS_LOSS: bool = true;
     type Answer = LimitsAnswer;
 
     fn answer(&self, scenario: Scenario, _: &Budget<'_>) -> Result<LimitsAnswer, RequestError> {

@@ -77,6 +77,7 @@ pub struct LoadAnswer {
 impl Question for Load {
     const TASK: &'static str = "load";
     const TAKES: &'static [&'static str] = &["initial", "t_end"];
+    const COUNTS_LOSS: bool = true;
     type Answer = LoadAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<LoadAnswer, RequestError> {

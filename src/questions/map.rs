@@ -106,6 +106,7 @@ const fn default_objective() -> Objective {
 impl Question for Map {
     const TASK: &'static str = "map";
     const TAKES: &'static [&'static str] = &["initial", "t_end"];
+    const COUNTS_LOSS: bool = true;
     type Answer = MapAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<MapAnswer, RequestError> {

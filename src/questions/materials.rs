@@ -57,6 +57,7 @@ pub struct NamedRow {
 impl Question for Materials {
     const TASK: &'static str = "materials";
     const TAKES: &'static [&'static str] = &["initial", "t_end"];
+    const COUNTS_LOSS: bool = true;
     type Answer = MaterialsAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<MaterialsAnswer, RequestError> {

@@ -13,6 +13,9 @@ pub trait Question: Serialize + DeserializeOwned {
     const TASK: &'static str;
     /// What of a scenario it takes besides device and model: `initial`, `t_end`.
     const TAKES: &'static [&'static str] = &[];
+    /// Whether it counts the dielectric loss beside the load, as what is asked in watts does; where it does not, its answers
+    /// about a lossy device say so.
+    const COUNTS_LOSS: bool = false;
     /// What is answered.
     type Answer: Serialize;
 

@@ -15,6 +15,7 @@ pub struct Task {
     /// Its name.
     pub name: &'static str,
     takes: &'static [&'static str],
+    counts_loss: bool,
     solve: fn(&Value, &[&'static str], Scenario, &Budget<'_>) -> Result<String, RequestError>,
 }
 
@@ -24,6 +25,7 @@ impl Task {
         Self {
             name: Q::TASK,
             takes: Q::TAKES,
+            counts_loss: Q::COUNTS_LOSS,
             solve: |fields, beside, scenario, budget| {
                 let question: Q = input::known_fields(fields, beside).map_err(with_range)?;
                 let answer = question.answer(scenario, budget)?;
@@ -50,11 +52,16 @@ pub(super) fn answer(tasks: &[Task], json: &str, budget: Budget<'_>) -> Result<S
     })?;
     let beside = subject::names(task.takes);
     let scenario = subject::take(&mut fields, task.takes)?;
+    let loss = scenario.base().loss_tangent;
+    let left_out = (loss > 0.0 && !task.counts_loss)
+        .then(|| format!("the dielectric loss (loss_tangent = {loss}), which tasks in watts count"));
     let mut answer = (task.solve)(&Value::Object(fields), &beside, scenario, &budget)?;
-    if let Some(missing) = budget.missing() {
-        // Every answer is an object; this is its last entry.
-        answer.pop();
-        answer += &format!(",\"missing\":{}}}", Value::from(missing));
+    for (name, told) in [("left_out", left_out), ("missing", budget.missing())] {
+        if let Some(told) = told {
+            // Every answer is an object; this is its last entry.
+            answer.pop();
+            answer += &format!(",\"{name}\":{}}}", Value::from(told));
+        }
     }
     Ok(answer)
 }
@@ -91,6 +98,20 @@ mod tests {
         assert!(about.initial == scenario.initial || !Q::TAKES.contains(&"initial"), "{request}");
         let read: Q = input::known_fields(&Value::Object(fields), &[]).expect(&request);
         assert_eq!(&read, question, "{request}");
+    }
+
+    #[test]
+    fn a_task_that_leaves_the_dielectric_loss_out_says_so() {
+        let told = |task: &str, loss: f64| {
+            let request =
+                format!(r#"{{"task":"{task}","device":{{"resistance":5e6,"loss_tangent":{loss}}}}}"#);
+            let answer: Value =
+                serde_json::from_str(&crate::questions::solve(&request).expect(task)).expect(task);
+            answer["left_out"].clone()
+        };
+        let expected = "the dielectric loss (loss_tangent = 0.05), which tasks in watts count";
+        assert_eq!((told("orbit", 0.05), told("modes", 0.05)), (expected.into(), expected.into()));
+        assert_eq!((told("orbit", 0.0), told("limits", 0.05)), (Value::Null, Value::Null));
     }
 
     #[test]

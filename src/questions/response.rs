@@ -105,6 +105,8 @@ impl Followed {
 struct Following<'a> {
     scenario: &'a Scenario,
     branches: Vec<Followed>,
+    /// Where branches of so many periods ended on one of half of them: from there they need not be followed again.
+    closed: Vec<(usize, f64)>,
     /// What was computed so far.
     effort: u64,
 }
@@ -135,7 +137,7 @@ pub(in crate::questions) fn branches(
         (Err(reason), None | Some(Err(_))) => return Err(reason),
         (low, high) => [low.ok(), high.and_then(Result::ok)].into_iter().flatten().collect(),
     };
-    let mut following = Following { scenario, branches: Vec::new(), effort: 0 };
+    let mut following = Following { scenario, branches: Vec::new(), closed: Vec::new(), effort: 0 };
     for branch in found {
         following.add(branch, Begin::End(BranchEnd::Range), course, doublings)?;
     }
@@ -177,7 +179,7 @@ pub(in crate::questions) fn branches_through(
             back => joined(back, branch),
         };
     }
-    let mut following = Following { scenario, branches: Vec::new(), effort: 0 };
+    let mut following = Following { scenario, branches: Vec::new(), closed: Vec::new(), effort: 0 };
     following.add(branch, Begin::End(begin), course, doublings)?;
     Ok(following.branches)
 }
@@ -224,10 +226,11 @@ impl Following<'_> {
             return Ok(());
         }
         let system = self.scenario.model.system(self.scenario.parameters)?;
-        let mut closed: Vec<f64> = Vec::new();
         for birth in &births {
             let value = birth.point.value;
-            if closed.iter().any(|other| same(*other, value, course.range)) {
+            let periods = 2 * course.periods;
+            let ended = |(of, at): &(usize, f64)| *of == periods && same(*at, value, course.range);
+            if self.closed.iter().any(ended) {
                 continue;
             }
             if self.effort > MOST_EFFORT {
@@ -237,9 +240,9 @@ impl Following<'_> {
             // A doubling so degenerate that no doubled motion is found beside it leaves the rest of the picture intact.
             let Ok(doubled) = follow_doubled(&system, birth, &course) else { continue };
             if let BranchEnd::Halved { value } = doubled.end {
-                closed.push(value);
+                self.closed.push((periods, value));
             }
-            let course = Course { periods: 2 * course.periods, ..course };
+            let course = Course { periods, ..course };
             self.add(doubled, Begin::Born { on: place, value }, course, doublings - 1)?;
         }
         Ok(())

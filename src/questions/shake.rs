@@ -120,6 +120,7 @@ impl Shake {
 impl Question for Shake {
     const TASK: &'static str = "shake";
     const TAKES: &'static [&'static str] = &["initial"];
+    const COUNTS_LOSS: bool = true;
     type Answer = ShakeAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<ShakeAnswer, RequestError> {

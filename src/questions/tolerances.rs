@@ -132,6 +132,7 @@ pub struct Spread {
 impl Question for Tolerances {
     const TASK: &'static str = "tolerances";
     const TAKES: &'static [&'static str] = &["initial", "t_end"];
+    const COUNTS_LOSS: bool = true;
     type Answer = TolerancesAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<TolerancesAnswer, RequestError> {

@@ -116,6 +116,7 @@ pub struct LawErrors {
 impl Question for Trust {
     const TASK: &'static str = "trust";
     const TAKES: &'static [&'static str] = &["initial", "t_end"];
+    const COUNTS_LOSS: bool = true;
     type Answer = TrustAnswer;
 
     fn answer(&self, scenario: Scenario, budget: &Budget<'_>) -> Result<TrustAnswer, RequestError> {

@@ -261,3 +261,32 @@ fn a_bad_request_names_the_field() {
         assert!(found.starts_with(message), "{request}: {found}");
     }
 }
+
+#[test]
+fn a_threshold_counts_the_loss_of_the_voltage_that_grows() {
+    let loss = 0.05;
+    let space = |frequency: f64| {
+        json!({
+            "task": "map", "device": {"frequency": frequency, "resistance": 5e6, "loss_tangent": loss},
+            "acceleration": 0.01, "objective": {"threshold": "first"},
+            "x": {"name": "resistance", "from": 5e6, "to": 6e6, "count": 2},
+            "y": {"name": "tip_mass", "from": 5.12e-4, "to": 6e-4, "count": 2},
+        })
+    };
+    let first = |frequency: f64| number(&answer(&space(frequency))["values"][0][0]);
+    let near = first(2.85);
+    for frequency in [1.4, 8.0, 20.0] {
+        assert!((first(frequency) / near - 1.0).abs() < 1e-9, "{frequency}: {} {near}", first(frequency));
+    }
+    // The tip of the tongue of a device whose conductance is that of the load and of the loss at half the tongue's frequency.
+    let paper = answer(&json!({"task": "modes"}));
+    let frequency = number(&paper["omega"][0]);
+    let [c, kappa] = [1e-6, 1e-6 * Device::default().resistance / 5e6];
+    let omegas: Vec<f64> = (-40..=40).map(|step| 2.0 * frequency + 0.005 * f64::from(step)).collect();
+    let boundary = answer(&json!({
+        "task": "boundary", "theory": "floquet", "resonance": "first", "omega": omegas,
+        "parameters": {"c": c, "kappa": kappa + loss * frequency * c},
+    }));
+    let lowest = list(&boundary["beta"]).iter().filter_map(Value::as_f64).fold(f64::INFINITY, f64::min);
+    assert!((near / lowest - 1.0).abs() < 2e-3, "{near} {lowest}");
+}

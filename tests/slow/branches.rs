@@ -588,3 +588,26 @@ fn a_correction_that_goes_astray_does_not_lose_the_branch() {
     let points = list(&branch["points"]);
     assert_eq!((number(&points[0]["value"]), number(&points[points.len() - 1]["value"])), (1e-8, 1e-4));
 }
+
+#[test]
+fn a_doubled_branch_is_none_of_the_orbits_that_double() {
+    // Next to this doubling the parameter moves the orbit itself along the direction in which the doubled one leaves it.
+    let found = answer(&json!({
+        "task": "continue", "parameter": "c0", "from": 0.01, "to": 2, "doublings": 1,
+        "parameters": {"alpha": 0.0003749913730785348, "beta": 0.00044355481610882166, "omega": 4.051751497845853,
+            "kappa": 1e-9, "theta": 1e-5},
+        "model": {"modes": 2, "force": "exact"},
+    }));
+    let doubled: Vec<&Value> =
+        list(&found["branches"]).iter().filter(|branch| branch["periods"] == 2).collect();
+    // Each leads from a doubling of one branch to one of the other, and is there once.
+    let ends = |branch: &Value| [&branch["begin"], &branch["end"]].map(|end| number(&end["value"]));
+    let found: Vec<[f64; 2]> = doubled.iter().map(|branch| ends(branch)).collect();
+    let expected = [[0.022190012, 0.024813736], [0.013627215, 0.015061060]];
+    assert_eq!(found.len(), 2, "{found:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(close(*found, expected, [1e-8; 2]), "{found:?} {expected:?}");
+    }
+    // Subcritical: it begins where the orbit is still stable, as Newton's iteration on another integrator has it.
+    assert!(number(&doubled[1]["points"][0]["value"]) < 0.013627214);
+}

@@ -84,10 +84,11 @@ pub fn material_row(
     let scenario = with_ceramic(scenario, ceramic, mode)?;
     let plant = Plant::new(&scenario)?;
     let (system, initial) = plant.scenario.validate()?;
-    let tongue = trace_tongue(&system, resonance, window)?;
+    let growing = plant.in_tongue(resonance)?.system()?;
+    let tongue = trace_tongue(&growing, resonance, window)?;
     let units = &plant.units;
     let threshold = match &tongue {
-        Some(tongue) => lowest(&system, tongue, resonance, window)?.map(|tip| Threshold {
+        Some(tongue) => lowest(&growing, tongue, resonance, window)?.map(|tip| Threshold {
             beta: tip.beta,
             frequency: units.hertz(tip.omega),
             acceleration: units.acceleration(tip.beta, tip.omega),

@@ -6,6 +6,8 @@ use crate::dynamics::{Effort, Measures};
 use crate::model::materials::dielectric_conductance;
 use crate::model::{Along, ModelError, Parameter, ParameterSet, ReducedSystem, Shaking, Units};
 use crate::scenario::Scenario;
+use crate::theory::Resonance;
+use crate::theory::spectrum::eigenvalues;
 
 /// A scenario with its SI units and losses.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,6 +70,24 @@ impl Plant {
         let found = reach_with_loss(system, self.along, initial, effort)?;
         let kappa = found.system.parameters.kappa;
         Ok((Self::with(&self.scenario, self.load, kappa - self.load, self.along)?, found))
+    }
+
+    /// The same plant with the dielectric loss of the voltage that grows where the tongue of `resonance` opens: at half the
+    /// tongue's frequency, whatever the frequency of the scenario. Of a combination that is the mean of its two lines.
+    ///
+    /// # Errors
+    /// [`DesignError`] where the frequencies of the device cannot be computed.
+    pub fn in_tongue(&self, resonance: Resonance) -> Result<Self, DesignError> {
+        if self.along.dielectric == 0.0 {
+            return Ok(self.clone());
+        }
+        let lossless = Self::with(&self.scenario, self.load, 0.0, self.along)?;
+        let values = eigenvalues(&lossless.system()?)?;
+        let mut frequencies: Vec<f64> = values.iter().map(|value| value.im).filter(|im| *im > 0.0).collect();
+        frequencies.sort_by(f64::total_cmp);
+        let (i, j) = resonance.pair();
+        let (Some(a), Some(b)) = (frequencies.get(i), frequencies.get(j)) else { return Ok(self.clone()) };
+        Ok(Self::with(&self.scenario, self.load, self.along.dielectric * 0.5 * (a + b), self.along)?)
     }
 
     /// The same plant with a load of `resistance` (ohm).

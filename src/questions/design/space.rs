@@ -233,7 +233,8 @@ fn band(
 }
 
 fn threshold(plant: &Plant, resonance: Resonance) -> Result<Evaluation, DesignError> {
-    let Ok(system) = plant.system() else { return Ok(Evaluation::NOTHING) };
+    let system = plant.in_tongue(resonance).and_then(|plant| Ok(plant.system()?));
+    let Ok(system) = system else { return Ok(Evaluation::NOTHING) };
     let limit = Window::default().limit;
     let Ok(tip) = lowest_threshold(&system, resonance, limit) else { return Ok(Evaluation::NOTHING) };
     // The excitation plays no role, nor then do the limits of a motion.

@@ -92,7 +92,7 @@ pub fn resonance_frequency(scenario: &Scenario) -> Result<Option<f64>, DesignErr
 /// # Errors
 /// [`DesignError`].
 pub fn threshold(scenario: &Scenario, resonance: Resonance) -> Result<Option<f64>, DesignError> {
-    let plant = Plant::new(scenario)?;
+    let plant = Plant::new(scenario)?.in_tongue(resonance)?;
     let tip = lowest_threshold(&plant.system()?, resonance, Window::default().limit)?;
     Ok(tip.map(|tip| plant.units.acceleration(tip.beta, tip.omega)))
 }

@@ -65,6 +65,7 @@ pub fn trust_entry(
     let plant = Plant::new(&scenario)?;
     let (system, initial) = plant.scenario.validate()?;
     if let Quantity::Threshold(resonance) = quantity {
+        let system = plant.in_tongue(resonance)?.system()?;
         let tip = lowest_threshold(&system, resonance, Window::default().limit)?;
         return Ok(TrustEntry { modes, law, value: tip.map(|tip| tip.beta), motion: None });
     }

@@ -195,7 +195,7 @@ fn every_ceramic_has_its_row_and_harder_ones_need_less() -> TestResult {
         let plant = Plant::new(&scenario)?;
         let threshold = row.threshold.ok_or("a tongue")?;
         // The threshold is the exact boundary there, and lowest among its neighbours.
-        let system = plant.system()?;
+        let system = plant.in_tongue(Resonance::First)?.system()?;
         let omega = plant.units.omega(threshold.frequency);
         let at = |omega: f64| critical_excitation(&system, omega, 0.04, None).map(|found| found.beta());
         let lowest = at(omega)?.ok_or("unstable")?;

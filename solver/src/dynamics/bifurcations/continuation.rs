@@ -44,7 +44,10 @@ const ON_AXIS: f64 = 1e-3;
 /// A multiplier this close to the unit circle may be on either side of it.
 const NEUTRAL: f64 = 1e-8;
 /// Distances at which the doubled branch is looked for beside its origin, in units of the gap.
-const OFFSETS: [f64; 3] = [3e-3, 1e-2, 3e-2];
+const OFFSETS: [f64; 6] = [3e-3, 1e-2, 3e-2, 1e-3, 3e-4, 1e-4];
+/// What half its period does at least to a doubled orbit, in units of that distance: twice it next to the origin. The orbit that
+/// doubles may come as far along the same direction, where the parameter moves it.
+const HALF_AWAY: f64 = 0.5;
 
 /// Follows the branch of `course` from the orbit of `system` near `state` (length 2N + 1).
 ///
@@ -122,6 +125,12 @@ pub fn follow_doubled(
     for offset in OFFSETS {
         let guess = &start + &direction * offset;
         match family.correct(&guess, &direction).and_then(|place| {
+            let (state, beta) = (family.state(&place), family.beta());
+            family.solver.evaluate_at(&state, beta, course.periods)?;
+            let away = family.defect_there().norm();
+            if away < HALF_AWAY * offset {
+                return Err(OrbitError::NoConvergence { iterations: 1, residual: away });
+            }
             let heading = family.tangent(&place, &direction)?;
             Ok((place, heading))
         }) {
