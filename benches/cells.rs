@@ -1,5 +1,5 @@
 //! Cells of charts of the motion reached and of basins, by one core: what one costs, against the number of modes, the force law
-//! and the size of the picture. `-- --table` prints that as a table, `-- --pictures` the times of two whole pictures.
+//! and the size of the picture. `-- --table` prints that as a table.
 
 #![allow(clippy::expect_used, reason = "a benchmark fails by panicking")]
 
@@ -88,28 +88,8 @@ fn table() {
     }
 }
 
-/// The two pictures that `compare.py` has heyoka's batches integrate.
-fn pictures() {
-    for (name, plane) in [
-        ("64 x 64 chart, every motion classified", chart(64, 2, ForceLaw::Quadratic)),
-        ("41 x 41 basin, every motion classified", basin(41, 2, ForceLaw::Quadratic)),
-    ] {
-        let mut times: Vec<f64> = (0..RUNS)
-            .map(|_| {
-                let start = Instant::now();
-                fill(black_box(&plane));
-                1e3 * start.elapsed().as_secs_f64()
-            })
-            .collect();
-        times.sort_by(f64::total_cmp);
-        println!("{name:<42} {:>10.0} {:>10.0}", times[0], times[RUNS / 2]);
-    }
-}
-
 fn main() {
-    if std::env::args().any(|argument| argument == "--pictures") {
-        pictures();
-    } else if std::env::args().any(|argument| argument == "--table") {
+    if std::env::args().any(|argument| argument == "--table") {
         table();
     } else {
         divan::main();
