@@ -97,6 +97,11 @@ pub fn gain(pairs: &[(&Found, &Found)], stationary: bool) -> Option<(f64, Option
     (delivers && linear > 0.0).then(|| (own / linear, ratio_error(&both, stationary)))
 }
 
+/// Standard error of the mean of batches of equal length, one after the other in one motion; `None` of too few.
+pub(super) fn mean_error(means: &[f64]) -> Option<f64> {
+    ratio_error(&means.iter().map(|mean| (*mean, 1.0)).collect::<Vec<_>>(), true)
+}
+
 /// Standard error of the sum of the first over the sum of the second of each pair, from the scatter about it. Batches that do
 /// know of one another, as where a motion changes wells or swells slowly, scatter less than they should: so neighbours are put
 /// together, again and again, and the largest error counts.

@@ -16,8 +16,9 @@ use crate::scenario::Scenario;
 const MOST_POINTS: usize = 1500;
 /// How often period doublings are followed unless a question says otherwise: to motions of 2 and 4 periods.
 pub const DOUBLINGS: usize = 2;
-/// Two places of a parameter are the same within this fraction of its range.
-const SAME: f64 = 1e-5;
+/// Two places of a parameter are the same within this fraction of its range: doublings and where branches close are located ten
+/// times better.
+const SAME: f64 = 1e-8;
 
 /// A point of a response curve.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
@@ -133,12 +134,8 @@ pub(in crate::questions) fn branches(
         Ok((system, state))
     };
     let course = Course { parameter, along, range, periods: 1, upwards: true, most_points: MOST_POINTS };
-    let found: Vec<_> = match follow_forced(&forced, &course) {
-        (Err(reason), None | Some(Err(_))) => return Err(reason),
-        (low, high) => [low.ok(), high.and_then(Result::ok)].into_iter().flatten().collect(),
-    };
     let mut following = Following { scenario, branches: Vec::new(), closed: Vec::new(), effort: 0 };
-    for branch in found {
+    for branch in follow_forced(&forced, &course)? {
         following.add(branch, Begin::End(BranchEnd::Range), course, doublings)?;
     }
     Ok(following.branches)

@@ -172,7 +172,7 @@ impl Page {
 
     /// Lets the page move by itself, as most systems do.
     pub(crate) fn let_move(&self) {
-        self.browser.let_move(true);
+        self.browser.let_move();
     }
 
     /// Runs JavaScript; a promise is waited for.

@@ -156,6 +156,28 @@ fn a_vertical_swipe_over_any_slider_scrolls_and_changes_no_value() {
 
 #[test]
 #[ignore = "needs the built page and Chromium: make test"]
+fn a_swipe_along_the_edge_scrolls_the_page_the_way_it_goes() {
+    let mut page = Page::open(360, 760, Theme::Dark);
+    page.touches();
+    for tab in ["explore", "design", "paper"] {
+        open_tab(&mut page, tab);
+        let before = controls(&page);
+        // Over the scroll bar, which is none for fingers.
+        page.swipe((354.0, 740.0), (355.0, 540.0));
+        page.wait(&format!("the page to scroll: {tab}"), |page| {
+            let now = controls(page);
+            let by = before.iter().filter_map(|old| {
+                let same = |new: &&Control| new.label == old.label && new.role == old.role;
+                Some(now.iter().find(same)?.bounds[1] - old.bounds[1])
+            });
+            by.fold(0.0, f64::min).lt(&-150.0).then_some(())
+        });
+    }
+    page.close();
+}
+
+#[test]
+#[ignore = "needs the built page and Chromium: make test"]
 fn a_tap_on_a_track_sets_the_value_and_the_question_mark_leads_back_to_the_greeting() {
     let mut page = Page::open(360, 760, Theme::Dark);
     page.touches();

@@ -290,3 +290,62 @@ fn a_threshold_counts_the_loss_of_the_voltage_that_grows() {
     let lowest = list(&boundary["beta"]).iter().filter_map(Value::as_f64).fold(f64::INFINITY, f64::min);
     assert!((near / lowest - 1.0).abs() < 2e-3, "{near} {lowest}");
 }
+
+#[test]
+fn trust_counts_the_loss_of_a_doubled_motion_as_a_harvest_does() {
+    let device = json!({"frequency": 2.85, "resistance": 5e6, "loss_tangent": 0.05});
+    let harvest = answer(&json!({"task": "harvest", "device": device, "acceleration": 0.03}));
+    let reached = &harvest["reached"];
+    assert_eq!(reached["motion"], json!({"kind": "periodic", "periods": 2}));
+    let volts = number(&reached["harvest"]["v_rms"]);
+    let trust =
+        answer(&json!({"task": "trust", "quantity": "voltage", "device": device, "acceleration": 0.03}));
+    let entries = list(&trust["entries"]).iter();
+    let own: Vec<f64> = entries
+        .filter(|entry| entry["modes"] == 2 && entry["law"] == "quadratic")
+        .map(|entry| number(&entry["value"]))
+        .collect();
+    assert!(own.len() == 1 && (own[0] / volts - 1.0).abs() < 1e-8, "{own:?} {volts}");
+}
+
+#[test]
+fn what_rounding_decides_is_no_fact_of_the_bench_either() {
+    // By 1e-12 of the resistance this device moves with period 9, 3 or 1.
+    let device = json!({"frequency": 5.092_010_737_736_381_5, "resistance": 9_513_869.812_648_773,
+        "capacitance": 7.558_749_644_782_022e-8, "base_amplitude": 0.011_300_247_286_119_75});
+    let request = |task| {
+        json!({"task": task, "scaling": "consistent", "device": device,
+            "model": {"force": {"taylor": 5}}})
+    };
+    let undecided = json!({"kind": "undecided", "why": "depends_on_rounding"});
+    assert_eq!(answer(&request("verdict"))["motion"], undecided);
+    let reached = &answer(&request("harvest"))["reached"];
+    assert_eq!(reached["motion"], undecided);
+    assert!(number(&reached["harvest"]["power"]) > 0.0);
+    assert_eq!(answer(&request("limits"))["motion"], "undecided");
+    // Where it decides nothing the motion is one, and of a periodic one the power is exact.
+    let own = answer(&json!({"task": "harvest", "parameters": figure_9()}));
+    assert_eq!(own["reached"]["motion"]["periods"], 2);
+    assert_eq!(own["reached"]["harvest"].get("power_error"), None);
+}
+
+#[test]
+fn the_band_of_a_map_ends_where_that_of_a_harvest_does() {
+    let (from, to, least) = (2.7, 3.0, 1e-5);
+    let harvest = answer(&json!({"task": "harvest", "parameters": figure_9(), "least": least,
+        "frequency": {"from": from, "to": to, "count": 41}}));
+    let bands = list(&harvest["curves"]["bands"]).iter();
+    let expected: Vec<f64> =
+        bands.filter(|band| band["of"] == "from_rest").map(|band| number(&band["total"])).collect();
+    // A line between two of ten frequencies would miss a border by up to their distance.
+    let map = answer(&json!({"task": "map", "parameters": figure_9(),
+        "objective": {"band": {"least": least, "from": from, "to": to, "count": 10}},
+        "x": {"name": "alpha", "from": 1e-4, "to": 2e-4, "count": 2},
+        "y": {"name": "beta", "from": 0.01, "to": 0.02, "count": 2}}));
+    let found = number(&map["values"][0][0]);
+    let distance = (to - from) / 9.0;
+    assert!(
+        expected.len() == 1 && (found - expected[0]).abs() < 2.0 * distance / 64.0,
+        "{found} {expected:?}"
+    );
+}

@@ -12,7 +12,9 @@ pub mod bifurcations;
 pub mod integration;
 pub mod orbits;
 
-pub use attractors::{Effort, Exponent, Inquiry, Motion, Reached, Settler, Verdict, VoltageSpectrum, reach};
+pub use attractors::{
+    Effort, Exponent, Inquiry, Motion, Reached, Settler, Verdict, VoltageSpectrum, arrive, reach,
+};
 pub use bifurcations::{
     Axis, Bifurcation, Branch, BranchEnd, BranchPoint, Course, CriticalExcitation, Curve, CurveEnd,
     ForcedMotion, Line, Loss, Plane, ResonanceBoundary, SpecialKind, Start, Tongue, critical_excitation,

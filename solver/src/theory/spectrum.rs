@@ -39,6 +39,14 @@ pub fn eigenvalues(system: &ReducedSystem) -> Result<Vec<Complex<f64>>, TheoryEr
     Ok(eigenvalues)
 }
 
+/// The natural frequencies of beam and circuit together (dimensionless), ascending.
+///
+/// # Errors
+/// As [`eigenvalues`].
+pub fn frequencies(system: &ReducedSystem) -> Result<Vec<f64>, TheoryError> {
+    Ok(eigenvalues(system)?.iter().map(|value| value.im).filter(|im| *im > 0.0).collect())
+}
+
 /// Newton's iteration on the characteristic polynomial, whose small roots a matrix with large entries blurs.
 fn refined(stiffness: &DynamicStiffness, value: Complex<f64>, highest: f64) -> Complex<f64> {
     let mut root = value;

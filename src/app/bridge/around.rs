@@ -22,12 +22,12 @@ pub(super) fn has_coarse_pointer() -> bool {
 }
 
 /// What the system asks for; looked at once a frame.
-pub(super) struct Asked {
+pub(super) struct SystemWishes {
     contrast: Option<MediaQueryList>,
     stillness: Option<MediaQueryList>,
 }
 
-impl Asked {
+impl SystemWishes {
     /// Has a frame drawn whenever a wish changes.
     pub(super) fn watch(context: &egui::Context) -> Self {
         let watched = |text| {
@@ -44,8 +44,8 @@ impl Asked {
         Self { contrast: watched(CONTRAST), stillness: watched(STILLNESS) }
     }
 
-    /// What it asks for now.
-    pub(super) fn wishes(&self) -> Wishes {
+    /// Those of this moment.
+    pub(super) fn now(&self) -> Wishes {
         let holds = |query: &Option<MediaQueryList>| query.as_ref().is_some_and(|query| query.matches());
         Wishes { contrast: holds(&self.contrast), stillness: holds(&self.stillness) }
     }

@@ -130,7 +130,7 @@ struct Page {
     keeper: Rc<RefCell<storage::Keeper>>,
     mirror: mirror::Mirror,
     recorder: Recorder,
-    asked: around::Asked,
+    wishes: around::SystemWishes,
     /// The look that the shell was told last.
     look: Option<(bool, bool)>,
     shown: bool,
@@ -155,8 +155,8 @@ impl Page {
             app.choose_language(language);
         }
         app.embed(&search);
-        let asked = around::Asked::watch(context);
-        app.set_wishes(asked.wishes());
+        let wishes = around::SystemWishes::watch(context);
+        app.set_wishes(wishes.now());
         around::watch_fingers(context);
         if around::has_coarse_pointer() {
             crate::app::widgets::touch::expect_fingers(context);
@@ -181,7 +181,7 @@ impl Page {
         if let Some(name) = address::lesson() {
             wasm_bindgen_futures::spawn_local(files::begin_lesson(name));
         }
-        Self { app, keeper, mirror: mirror::Mirror::default(), recorder, asked, look: None, shown: false }
+        Self { app, keeper, mirror: mirror::Mirror::default(), recorder, wishes, look: None, shown: false }
     }
 }
 
@@ -196,7 +196,7 @@ impl eframe::App for Page {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        self.app.borrow_mut().set_wishes(self.asked.wishes());
+        self.app.borrow_mut().set_wishes(self.wishes.now());
         self.app.borrow_mut().ui(ui);
         let look = self.app.borrow().look(ui.ctx());
         if self.look != Some(look) {

@@ -2,7 +2,6 @@
 //! a line across the jump.
 
 use super::{DesignError, HarvestPoint, Plant};
-use crate::dynamics::Effort;
 use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::attractors::sweep::{Dwell, SweepCourse, sweep};
 use crate::model::{Parameter, Shaking};
@@ -131,7 +130,7 @@ pub fn from_rest(plant: &Plant, omega: f64) -> Result<Cell, DesignError> {
     let set = plant.along.at(&plant.scenario.parameters, Parameter::Omega, omega);
     let system = plant.scenario.model.system(set)?;
     let rest = vec![0.0; system.dimension()];
-    Ok(plant.reach(&system, &rest, Effort::cell())?.1.reached.cell())
+    Ok(plant.reach(&system, &rest)?.1.reached.cell())
 }
 
 fn at_rest(plant: &Plant, omega: f64) -> Result<Place, DesignError> {

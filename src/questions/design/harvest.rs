@@ -6,12 +6,15 @@ use serde::{Deserialize, Serialize};
 use super::linear::linear_balance;
 use super::{DesignError, Plant};
 use crate::dynamics::attractors::dielectric::{WithLoss, orbit_with_loss};
-use crate::dynamics::{Balance, Effort, ForcedMotion, Measures, Motion};
+use crate::dynamics::attractors::rotation::{weighted_average, weights};
+use crate::dynamics::{Balance, ForcedMotion, Measures, Motion, Reached, arrive};
 use crate::model::{Demand, ReducedSystem};
+use crate::questions::batch_means::mean_error;
 use crate::scenario::Scenario;
 
-/// Excitation periods over which a motion that never repeats is measured.
-const RECORD: usize = 512;
+/// Excitation periods over which a motion that never repeats is measured, and those of each batch of them.
+const RECORD: usize = 2048;
+const BATCH: usize = 32;
 
 /// What a steady motion delivers and what it costs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, nanoserde::SerBin, nanoserde::DeBin)]
@@ -19,6 +22,10 @@ pub struct Harvest {
     /// Means and extremes in SI units: V, W (V^2/R_eq in the load), mm.
     #[serde(flatten)]
     pub measures: Measures,
+    /// Error of the mean power (W) of a motion that never repeats: the standard error by the scatter along its record, on a torus
+    /// how far the means of its halves differ; absent where the motion repeats.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub power_error: Option<f64>,
     /// The power over the square of the peak of the base's acceleration (W/g^2); `None` at rest.
     pub power_per_g2: Option<f64>,
     /// Mean power that the shaken base puts in (W).
@@ -47,6 +54,7 @@ impl Harvest {
         let per_input = electrical * share / balance.input;
         Self {
             measures: Measures { power, ..plant.in_si(&balance.measures) },
+            power_error: None,
             power_per_g2: (acceleration > 0.0).then(|| power / (acceleration * acceleration)),
             input: units.watts(balance.input),
             viscous: units.watts(balance.viscous),
@@ -142,22 +150,86 @@ pub fn operating(scenario: &Scenario) -> Result<Operating, DesignError> {
     })
 }
 
-/// The motion that the start of `system`, one of `plant`, in `initial` leads to.
+/// The motion that the start of `system`, one of `plant`, in `initial` leads to: for one start that people will rely on, undecided
+/// where rounding decides on it. The power is then that of one of the motions.
 ///
 /// # Errors
-/// As [`Plant::reach`].
+/// As [`Plant::with_loss`].
 pub fn lasting(plant: &Plant, system: &ReducedSystem, initial: &[f64]) -> Result<Lasting, DesignError> {
-    let (plant, found) = plant.reach(system, initial, Effort::cell())?;
+    delivering(plant.with_loss(system, &|system| arrive(system, initial))?)
+}
+
+/// The same for one sample of many, which is not held against others.
+///
+/// # Errors
+/// As [`Plant::with_loss`].
+pub fn sampled(plant: &Plant, system: &ReducedSystem, initial: &[f64]) -> Result<Lasting, DesignError> {
+    delivering(plant.reach(system, initial)?)
+}
+
+fn delivering((plant, found): (Plant, WithLoss)) -> Result<Lasting, DesignError> {
     let WithLoss { system, reached, line } = found;
     let motion = reached.motion;
-    let balance = match (&reached.orbit, motion) {
+    let harvest = match (&reached.orbit, motion) {
         (_, Motion::Escape { .. } | Motion::Contact { .. }) => None,
-        (Some(orbit), _) => Balance::of(&system, &orbit.state, orbit.periods)?,
-        (None, _) => Balance::of(&system, &reached.state, RECORD)?,
+        (Some(orbit), _) => Balance::of(&system, &orbit.state, orbit.periods)?
+            .map(|balance| Harvest::new(&plant, &system, &balance)),
+        (None, _) => without_end(&plant, &system, &reached)?,
     };
-    Ok(Lasting {
-        motion,
-        harvest: balance.map(|balance| Harvest::new(&plant, &system, &balance)),
-        dielectric_frequency: line.map(|line| plant.units.hertz(line)),
-    })
+    Ok(Lasting { motion, harvest, dielectric_frequency: line.map(|line| plant.units.hertz(line)) })
+}
+
+/// What a motion of `system`, one of `plant`, that never repeats delivers, by a record of it.
+fn without_end(
+    plant: &Plant,
+    system: &ReducedSystem,
+    reached: &Reached,
+) -> Result<Option<Harvest>, DesignError> {
+    // On a torus these means come much closer than plain ones.
+    let on_a_torus = reached.motion == Motion::Quasiperiodic;
+    let weights = if on_a_torus { weights(RECORD) } else { vec![1.0 / RECORD as f64; RECORD] };
+    let Some((balance, powers)) = Balance::averaged(system, &reached.state, &weights)? else {
+        return Ok(None);
+    };
+    let error = if on_a_torus {
+        let (early, late) = powers.split_at(RECORD / 2);
+        Some((weighted_average(early) - weighted_average(late)).abs())
+    } else {
+        let means = powers.chunks_exact(BATCH).map(|batch| batch.iter().sum::<f64>() / BATCH as f64);
+        mean_error(&means.collect::<Vec<_>>())
+    };
+    let harvest = Harvest::new(plant, system, &balance);
+    let electrical = balance.measures.power;
+    let power_error =
+        error.filter(|_| electrical > 0.0).map(|error| harvest.measures.power * error / electrical);
+    Ok(Some(Harvest { power_error, ..harvest }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{ForceLaw, ModelChoice, ParameterSet};
+
+    #[test]
+    fn the_powers_of_chaotic_motions_scatter_as_their_errors_say() -> Result<(), DesignError> {
+        let powers = (0..6).map(|k| {
+            let beta = 0.05 * (1.0 + 1e-9 * f64::from(k));
+            let parameters = ParameterSet { alpha: 1e-4, beta, omega: 11.0, ..Default::default() };
+            let model = ModelChoice { force: ForceLaw::Exact, ..Default::default() };
+            let plant = Plant::new(&Scenario { parameters, model, ..Default::default() })?;
+            let (system, initial) = plant.scenario.validate()?;
+            let found = sampled(&plant, &system, &initial)?;
+            assert_eq!(found.motion, Motion::Chaotic);
+            let harvest = found.harvest.expect("it lasts");
+            Ok((harvest.measures.power, harvest.power_error.expect("it never repeats")))
+        });
+        let powers: Vec<(f64, f64)> = powers.collect::<Result<_, DesignError>>()?;
+        let count = powers.len() as f64;
+        let mean = powers.iter().map(|(power, _)| power).sum::<f64>() / count;
+        let scatter = powers.iter().map(|(power, _)| (power - mean).powi(2)).sum::<f64>() / (count - 1.0);
+        let error = powers.iter().map(|(_, error)| error * error).sum::<f64>() / count;
+        // Of six values, this quotient is between these in 98 of 100 cases (chi squared of five degrees of freedom).
+        assert!((0.11..3.02).contains(&(scatter / error)), "{powers:?}");
+        Ok(())
+    }
 }

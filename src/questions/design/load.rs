@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use super::linear::linear_peak;
 use super::peak::{Peak, highest};
 use super::{Bounds, DesignError, Plant, delivering_branches};
-use crate::dynamics::Effort;
 use crate::dynamics::attractors::dielectric::{WithLoss, orbit_with_loss};
 use crate::dynamics::attractors::motion::Cell;
 use crate::dynamics::{ForcedMotion, Measures, Motion, Orbit, OrbitError};
@@ -111,7 +110,7 @@ pub fn reached_loads(
         let plant = plant.with_resistance(*resistance)?;
         let system = plant.system()?;
         let from = carried.as_ref().unwrap_or(&start);
-        let (plant, WithLoss { reached, .. }) = plant.reach(&system, from, Effort::cell())?;
+        let (plant, WithLoss { reached, .. }) = plant.reach(&system, from)?;
         let Cell { motion, measures } = reached.cell();
         let point = LoadPoint::new(&plant, motion, reached.cell().lasts(), &measures);
         let orbit = reached.orbit.map(|orbit| orbit.state);

@@ -2,12 +2,12 @@
 
 use super::DesignError;
 use crate::dynamics::attractors::dielectric::{WithLoss, reach_with_loss};
-use crate::dynamics::{Effort, Measures};
+use crate::dynamics::{Effort, IntegrationError, Measures, Reached, reach};
 use crate::model::materials::dielectric_conductance;
 use crate::model::{Along, ModelError, Parameter, ParameterSet, ReducedSystem, Shaking, Units};
 use crate::scenario::Scenario;
 use crate::theory::Resonance;
-use crate::theory::spectrum::eigenvalues;
+use crate::theory::spectrum::frequencies;
 
 /// A scenario with its SI units and losses.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,20 +56,27 @@ impl Plant {
         Ok(Self { scenario, load, leakage, units, along })
     }
 
-    /// The motion that the start `initial` of `system`, one of this plant, leads to, with the dielectric loss at its own
+    /// The motion that a start of `system`, one of this plant, leads to as `reach` says, with the dielectric loss at its own
     /// frequency, and the plant with that loss.
     ///
     /// # Errors
     /// As [`reach_with_loss`].
-    pub fn reach(
+    pub fn with_loss(
         &self,
         system: &ReducedSystem,
-        initial: &[f64],
-        effort: Effort,
+        reach: &dyn Fn(&ReducedSystem) -> Result<Reached, IntegrationError>,
     ) -> Result<(Self, WithLoss), DesignError> {
-        let found = reach_with_loss(system, self.along, initial, effort)?;
+        let found = reach_with_loss(system, self.along, reach)?;
         let kappa = found.system.parameters.kappa;
         Ok((Self::with(&self.scenario, self.load, kappa - self.load, self.along)?, found))
+    }
+
+    /// The same for the start in `initial` (length 2N + 1), one sample of many, which is not held against others.
+    ///
+    /// # Errors
+    /// As [`reach_with_loss`].
+    pub fn reach(&self, system: &ReducedSystem, initial: &[f64]) -> Result<(Self, WithLoss), DesignError> {
+        self.with_loss(system, &|system| reach(system, initial, Effort::cell()))
     }
 
     /// The same plant with the dielectric loss of the voltage that grows where the tongue of `resonance` opens: at half the
@@ -82,9 +89,7 @@ impl Plant {
             return Ok(self.clone());
         }
         let lossless = Self::with(&self.scenario, self.load, 0.0, self.along)?;
-        let values = eigenvalues(&lossless.system()?)?;
-        let mut frequencies: Vec<f64> = values.iter().map(|value| value.im).filter(|im| *im > 0.0).collect();
-        frequencies.sort_by(f64::total_cmp);
+        let frequencies = frequencies(&lossless.system()?)?;
         let (i, j) = resonance.pair();
         let (Some(a), Some(b)) = (frequencies.get(i), frequencies.get(j)) else { return Ok(self.clone()) };
         Ok(Self::with(&self.scenario, self.load, self.along.dielectric * 0.5 * (a + b), self.along)?)

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::linear::highest_place;
 use super::{DesignError, Plant};
+use crate::dynamics::Measures;
 use crate::dynamics::attractors::rectified::{Steady, settle_rectified};
-use crate::dynamics::{Effort, Measures};
 use crate::scenario::Scenario;
 
 /// Golden sections that locate the best voltage.
@@ -98,7 +98,7 @@ impl RectifiedPoint {
 pub fn open_circuit(scenario: &Scenario) -> Result<Option<f64>, DesignError> {
     let plant = unloaded(scenario)?;
     let (system, initial) = plant.scenario.validate()?;
-    let (_, found) = plant.reach(&system, &initial, Effort::cell())?;
+    let (_, found) = plant.reach(&system, &initial)?;
     let cell = found.reached.cell();
     Ok(cell.lasts().then_some(cell.measures.v_peak))
 }

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::band::{total, usable};
-use super::harvest::{Lasting, lasting};
+use super::harvest::{Lasting, sampled};
 use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
 use crate::dynamics::Motion;
@@ -18,6 +18,8 @@ use crate::theory::Resonance;
 
 /// Violation of a candidate without any motion to judge: worse than any that has one.
 const NO_MOTION: f64 = 1e3;
+/// Halvings of the distance of two frequencies that locate the border of a band between them.
+const BORDER_HALVINGS: usize = 6;
 /// Numbers of frequencies of a band.
 const BAND_COUNTS: (usize, usize) = (2, 64);
 
@@ -57,8 +59,8 @@ pub enum Objective {
     PowerPerG2,
     /// Root mean square of its voltage (V).
     Voltage,
-    /// Width (Hz) in which at least `least` (W) is reached from the start, of `count` frequencies from `from` to `to`
-    /// (Hz).
+    /// Width (Hz) in which at least `least` (W) is reached from the start, of `count` frequencies from `from` to `to` (Hz); its
+    /// borders between them are located to a sixty-fourth of their distance.
     Band {
         /// Power (W).
         least: f64,
@@ -197,7 +199,7 @@ fn lasting_at(space: &DesignSpace, plant: &Plant, omega: f64) -> Option<(Lasting
     }
     scenario.parameters.omega = omega;
     let (system, initial) = scenario.validate().ok()?;
-    let found = lasting(plant, &system, &initial).ok()?;
+    let found = sampled(plant, &system, &initial).ok()?;
     let violation = match found.harvest {
         None => NO_MOTION,
         Some(harvest) => {
@@ -221,13 +223,25 @@ fn band(
     range: (f64, f64),
     count: usize,
 ) -> Result<Evaluation, DesignError> {
-    let (mut curve, mut violation) = (Vec::with_capacity(count), 0.0_f64);
-    for frequency in equally_spaced(range, count) {
-        let Some((found, violated)) = lasting_at(space, plant, plant.units.omega(frequency)) else {
-            return Ok(Evaluation::NOTHING);
-        };
+    let mut violation = 0.0_f64;
+    let mut point = |frequency: f64| {
+        let (found, violated) = lasting_at(space, plant, plant.units.omega(frequency))?;
         violation = violation.max(violated);
-        curve.push([frequency, found.harvest.map_or(0.0, |harvest| harvest.measures.power)]);
+        Some([frequency, found.harvest.map_or(0.0, |harvest| harvest.measures.power)])
+    };
+    let Some(samples) = equally_spaced(range, count).map(&mut point).collect::<Option<Vec<_>>>() else {
+        return Ok(Evaluation::NOTHING);
+    };
+    let reaches = |point: [f64; 2]| point[1] >= least;
+    let mut curve = Vec::with_capacity(4 * count);
+    for pair in samples.windows(2) {
+        let (mut low, mut high) = (pair[0], pair[1]);
+        // A line across a jump of the motion would put the border anywhere.
+        for _ in 0..if reaches(low) == reaches(high) { 0 } else { BORDER_HALVINGS } {
+            let Some(middle) = point(0.5 * (low[0] + high[0])) else { return Ok(Evaluation::NOTHING) };
+            if reaches(middle) == reaches(low) { low = middle } else { high = middle }
+        }
+        curve.extend([pair[0], low, high, pair[1]]);
     }
     Ok(Evaluation { value: Some(total(&usable(&[curve], least))), violation, motion: None })
 }

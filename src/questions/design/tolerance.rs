@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::harvest::{Lasting, lasting};
+use super::harvest::{Lasting, sampled};
 use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
 use crate::dynamics::bifurcations::tongue::Window;
@@ -12,7 +12,7 @@ use crate::model::layers::LayerNumber;
 use crate::model::{Dimension, Layers, ModelError};
 use crate::questions::motions::{Coordinate, at_place};
 use crate::scenario::Scenario;
-use crate::theory::{Resonance, spectrum::eigenvalues};
+use crate::theory::{Resonance, spectrum::frequencies};
 
 /// Changes of a dimension for the differences, over its value: of a motion and of an eigenvalue, and of the tip of a
 /// tongue, which is known less exactly.
@@ -73,7 +73,7 @@ pub fn coordinates(scenario: &Scenario) -> Result<Vec<(Coordinate, f64)>, ModelE
 fn motion(scenario: &Scenario) -> Result<Lasting, DesignError> {
     let plant = Plant::new(scenario)?;
     let (system, initial) = plant.scenario.validate()?;
-    lasting(&plant, &system, &initial)
+    sampled(&plant, &system, &initial)
 }
 
 /// First resonance frequency (Hz) of the linear device with its circuit.
@@ -82,9 +82,8 @@ fn motion(scenario: &Scenario) -> Result<Lasting, DesignError> {
 /// [`DesignError`].
 pub fn resonance_frequency(scenario: &Scenario) -> Result<Option<f64>, DesignError> {
     let plant = Plant::new(scenario)?;
-    let values = eigenvalues(&plant.system()?)?;
-    let lowest = values.iter().map(|value| value.im).filter(|im| *im > 0.0).fold(f64::INFINITY, f64::min);
-    Ok(lowest.is_finite().then(|| plant.units.hertz(lowest)))
+    let frequencies = frequencies(&plant.system()?)?;
+    Ok(frequencies.first().map(|lowest| plant.units.hertz(*lowest)))
 }
 
 /// Lowest acceleration of the base (peak g) that opens the tongue of `resonance`.

@@ -5,9 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::materials::lowest_threshold;
 use super::{DesignError, Plant};
-use crate::dynamics::Effort;
+use crate::dynamics::Motion;
 use crate::dynamics::bifurcations::tongue::Window;
-use crate::dynamics::{Motion, reach};
 use crate::model::force::Exact;
 use crate::model::{ForceLaw, MAX_MODES, ModelChoice, ParameterSet, ReducedSystem};
 use crate::scenario::Scenario;
@@ -69,7 +68,7 @@ pub fn trust_entry(
         let tip = lowest_threshold(&system, resonance, Window::default().limit)?;
         return Ok(TrustEntry { modes, law, value: tip.map(|tip| tip.beta), motion: None });
     }
-    let cell = reach(&system, &initial, Effort::cell())?.cell();
+    let cell = plant.reach(&system, &initial)?.1.reached.cell();
     let value = cell.demand().map(|demand| match quantity {
         Quantity::Power => plant.watts(cell.measures.v_rms),
         Quantity::Tip => plant.units.millimetres(demand.tip.1.max(-demand.tip.0)),

@@ -135,8 +135,8 @@ impl Browser for Chromium {
         self.tell_wishes();
     }
 
-    fn let_move(&self, moves: bool) {
-        self.wishes.set((self.wishes.get().0, moves));
+    fn let_move(&self) {
+        self.wishes.set((self.wishes.get().0, true));
         self.tell_wishes();
     }
 

@@ -32,10 +32,10 @@ pub(crate) trait Browser {
     /// The size of the page, and the colours that its system asks for where the browser can still change them.
     fn resize(&self, width: u32, height: u32, theme: Theme);
 
-    /// Whether the system lets pages move by themselves, which it does not at first: tests are about other things, and every
+    /// From now on the system lets pages move by themselves. It does not at first: tests are about other things, and every
     /// picture takes time.
-    fn let_move(&self, moves: bool) {
-        panic!("moves: {moves} can be said to Chromium only")
+    fn let_move(&self) {
+        panic!("only Chromium can be told so while it runs")
     }
 
     /// Console messages since the last call: (level, message).

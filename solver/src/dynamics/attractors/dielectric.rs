@@ -5,9 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use super::effort::Effort;
 use super::motion::{Motion, Reached};
-use super::settle::reach;
 use crate::dynamics::integration::{IntegrationError, RunError, Settings, Trajectory};
 use crate::dynamics::orbits::{Orbit, OrbitError};
 use crate::model::{Along, ModelError, ReducedSystem};
@@ -34,22 +32,21 @@ pub struct WithLoss {
     pub line: Option<f64>,
 }
 
-/// The motion that the start `initial` (length 2N + 1) of `system` leads to, the dielectric loss that `along` says is in its
-/// kappa taken at the frequency of the largest line of its voltage, not at the excitation's. Where motion and loss do not
-/// come to agree within a few rounds the last ones are the answer.
+/// The motion that a start of `system` leads to as `reach` says, the dielectric loss that `along` says is in its kappa taken at
+/// the frequency of the largest line of its voltage, not at the excitation's. Where motion and loss do not come to agree within
+/// a few rounds the last ones are the answer.
 ///
 /// # Errors
-/// As [`reach`], and [`RunError::Model`] when the conductance is out of range.
+/// As `reach`, and [`RunError::Model`] when the conductance is out of range.
 pub fn reach_with_loss(
     system: &ReducedSystem,
     along: Along,
-    initial: &[f64],
-    effort: Effort,
+    reach: &dyn Fn(&ReducedSystem) -> Result<Reached, IntegrationError>,
 ) -> Result<WithLoss, RunError> {
     let mut there = system.clone();
     let mut rounds = 0;
     loop {
-        let reached = reach(&there, initial, effort)?;
+        let reached = reach(&there)?;
         let lasts = !matches!(reached.motion, Motion::Escape { .. } | Motion::Contact { .. });
         let line = if along.dielectric > 0.0 && lasts {
             let (state, periods) = match &reached.orbit {

@@ -4,6 +4,7 @@
 //! On a periodic motion, exponent and spectrum are those of the motion itself, started on it, so that nothing of the
 //! transient is in them; were it unstable after all, it would be left.
 
+use super::arrival::Arrival;
 use super::effort::Effort;
 use super::evidence::{Evidence, EvidenceSource, Observation};
 use super::lyapunov::{Exponent, Record, Sign, exponents};
@@ -20,7 +21,6 @@ use super::voltage_spectrum::{VoltageSpectrum, VoltageSpectrumError};
 use crate::dynamics::bifurcations::ForcedMotion;
 use crate::dynamics::integration::Measures;
 use crate::dynamics::integration::{Collocation, Outcome, Settings};
-use crate::dynamics::orbits::period_map::scales;
 use crate::model::{ForceLaw, ReducedSystem};
 
 /// Record of the exponent on a periodic motion: first, and when it is given up as it is (excitation periods).
@@ -29,22 +29,6 @@ const EXPONENT_PERIODS: (usize, usize) = (192, 8192);
 const ACCURATE: f64 = 0.02;
 /// Decay of the tangent vectors over the record after which it is long enough whatever the interval says.
 const LONG: f64 = 200.0;
-/// Difference of two runs from one start, relative to the largest displacement, beyond which they have separated; and the
-/// largest half that time before, since what grows with the time only is a vibration's phase that the coarser run loses.
-const SEPARATED: f64 = 0.05;
-const TOGETHER: f64 = 0.005;
-/// Starts that are tried beside the one asked for when two runs from it separate.
-const BESIDE: usize = 10;
-/// Excitation periods that a chaotic one of them must last, and integrator steps that each may cost.
-const BESIDE_LASTING: usize = 8000;
-const BESIDE_STEPS: u64 = 600_000;
-/// How far they are from it, relative to the gap: more than rounding, less than anybody could set.
-const BESIDE_BY: f64 = 1e-10;
-/// Excitation periods that a chaotic motion must last where something else attracts, on which a transient could end.
-const LASTING_BESIDE: usize = 96_000;
-/// A forced motion whose multiplier is below this is stable, or has just handed its stability to what branched off.
-const NEARLY_STABLE: f64 = 1.01;
-
 /// What was found out about the motion that a start leads to.
 #[derive(Debug)]
 pub struct Inquiry {
@@ -66,11 +50,9 @@ impl Inquiry {
     pub fn new(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Self, VerdictError> {
         let mut settler = Settler::new(system);
         let forced = ForcedMotion::of(system).ok();
-        let mut reached = settler.reach(initial, Effort::full())?;
-        if reached.motion == Motion::Chaotic && has_an_end(&settler, forced.as_ref()) {
-            reached = settler.reach(initial, Effort { lasting: LASTING_BESIDE, ..Effort::full() })?;
-        }
-        let (beside, separated) = beside(&mut settler, system, initial, &reached)?;
+        let arrival = Arrival::of(&mut settler, (system, initial), forced.as_ref())?;
+        let rounding_decides = arrival.depends_on_rounding();
+        let Arrival { mut reached, ends, separated } = arrival;
         let spectrum = spectrum(system, &mut reached)?;
         let exponent = match &reached.orbit {
             Some(orbit) => exponent_on(system, &orbit.state)?,
@@ -82,7 +64,7 @@ impl Inquiry {
             true => None,
             false => Some(settler.reach(&vec![0.0; initial.len()], Effort::full())?),
         };
-        let others = Others { beside, separated, from_rest, met: settler.stable_orbits() };
+        let others = Others { ends, rounding_decides, separated, from_rest, met: settler.stable_orbits() };
         let findings = Findings {
             system,
             t_end,
@@ -94,70 +76,6 @@ impl Inquiry {
         let verdict = findings.conclude(&others);
         Ok(Self { verdict, reached, spectrum, forced })
     }
-}
-
-/// Whether a motion is known that chaos may only be the way to.
-fn has_an_end(settler: &Settler, forced: Option<&ForcedMotion>) -> bool {
-    let forced = forced.and_then(|forced| forced.orbit.as_ref());
-    let nearly_stable = forced.is_some_and(|orbit| orbit.largest_multiplier().norm() < NEARLY_STABLE);
-    nearly_stable || !settler.stable_orbits().is_empty()
-}
-
-/// Where starts lead that differ by rounding, the one asked for among them: one entry a motion, with how many do; and
-/// whether two runs from the one asked for went different ways before they settled.
-fn beside(
-    settler: &mut Settler,
-    system: &ReducedSystem,
-    initial: &[f64],
-    reached: &Reached,
-) -> Result<(Vec<(Signature, usize)>, bool), VerdictError> {
-    let coarse = Effort { tolerance: Settings::default().tolerance, ..Effort::cell() };
-    let coarser = settler.reach(initial, coarse)?;
-    let recogniser = Recogniser::new(system);
-    let own = Signature::of(reached.clone());
-    let same = recogniser.same_end(&own, &Signature::of(coarser.clone()));
-    let diverging = matches!(reached.motion, Motion::Chaotic | Motion::Undecided { .. });
-    let separated = !diverging && separated(reached, &coarser);
-    let mut ends = vec![(own, 1)];
-    let undecided = |reached: &Reached| matches!(reached.motion, Motion::Undecided { .. });
-    // One that is not decided is no other motion.
-    if (same || undecided(&coarser)) && !separated {
-        return Ok((ends, false));
-    }
-    // A run that found the way out of chaos shows that there is one.
-    if reached.motion == Motion::Chaotic {
-        ends.push((Signature::of(coarser), 1));
-        return Ok((ends, false));
-    }
-    let scales = scales(system);
-    for k in 1..=BESIDE {
-        let moved: Vec<f64> = initial
-            .iter()
-            .zip(&scales)
-            .enumerate()
-            .map(|(i, (value, scale))| {
-                let direction = (1.7 * k as f64 + 2.3 * i as f64 * k as f64).cos();
-                value + BESIDE_BY * system.equilibrium.gap * scale * direction
-            })
-            .collect();
-        let effort = Effort { lasting: BESIDE_LASTING, steps: BESIDE_STEPS, ..Effort::full() };
-        let end = Signature::of(settler.reach(&moved, effort)?);
-        match ends.iter_mut().find(|(known, _)| recogniser.same_end(known, &end)) {
-            Some((_, count)) => *count += 1,
-            None if matches!(end.cell.motion, Motion::Undecided { .. }) => {}
-            None => ends.push((end, 1)),
-        }
-    }
-    Ok((ends, separated))
-}
-
-/// Whether two runs from one start have gone different ways before the earlier one arrived.
-fn separated(a: &Reached, b: &Reached) -> bool {
-    let pairs = || a.notes.iter().zip(&b.notes);
-    let largest = pairs().map(|(a, b)| a.abs().max(b.abs())).fold(0.0, f64::max);
-    let apart = |by: f64| pairs().position(|(a, b)| (a - b).abs() > by * largest);
-    let (Some(first), Some(apart)) = (apart(TOGETHER), apart(SEPARATED)) else { return false };
-    first > apart / 2
 }
 
 /// The exponent by tangent vectors along the motion from `state`, which has settled: a second witness beside multipliers or
@@ -197,7 +115,8 @@ fn spectrum(system: &ReducedSystem, reached: &mut Reached) -> Result<Option<Volt
 
 /// What else was met at the same parameters.
 struct Others {
-    beside: Vec<(Signature, usize)>,
+    ends: Vec<(Signature, usize)>,
+    rounding_decides: bool,
     separated: bool,
     from_rest: Option<Reached>,
     /// Stable orbits that Newton's iteration came upon.
@@ -224,7 +143,7 @@ impl Findings<'_> {
         let rests_on = self.evidence(rotation, others);
         let disagreeing: Vec<EvidenceSource> =
             rests_on.iter().filter(|piece| piece.agrees == Some(false)).map(Evidence::source).collect();
-        let motion = if others.beside.len() > 1 {
+        let motion = if others.rounding_decides {
             Motion::Undecided { why: Undecided::DependsOnRounding }
         } else if disagreeing.is_empty() {
             suspected
@@ -313,8 +232,8 @@ impl Findings<'_> {
         let reached = self.reached;
         let motion = reached.motion;
         let mut evidence = Vec::new();
-        if others.beside.len() > 1 {
-            evidence.push(Evidence::beside(&others.beside));
+        if others.rounding_decides {
+            evidence.push(Evidence::beside(&others.ends));
         }
         if !reached.cell().lasts() {
             evidence.push(Evidence::supporting(Observation::Run(motion)));
@@ -347,7 +266,7 @@ impl Findings<'_> {
                 known.push(signature);
             }
         };
-        for (end, _) in others.beside.iter().skip(1) {
+        for (end, _) in others.ends.iter().skip(1) {
             add(OtherStart::Beside, end.clone());
         }
         let stable = self.forced.and_then(|forced| forced.orbit.as_ref()).filter(|orbit| orbit.stable());

@@ -9,7 +9,7 @@
 //!   `neighbourhood` tells whether they lie in the linear neighbourhood of a periodic motion, and what they do there;
 //!   [`rotation`] has means and frequencies by weighted Birkhoff averages, `zero_one` the 0-1 test for chaos, [`lyapunov`]
 //!   the exponents, from the growth of `tangent` vectors. `meter` measures what does not repeat.
-//! * [`dielectric`] takes a dielectric's loss at the frequency of the motion that it has a part in.
+//! * `arrival` says whether rounding decides where a start leads. [`dielectric`] takes a dielectric's loss at the frequency of the motion that it has a part in.
 //! * [`rectified`] follows the device with a rectifier until its cycle repeats.
 //! * [`signature`] tells whether two starts lead to the same motion; [`sweep`] carries a motion from one value of a
 //!   parameter to the next.
@@ -18,6 +18,7 @@
 //!
 //! The uppermost room: it may use all others, and none of them uses it.
 
+mod arrival;
 pub mod dielectric;
 pub mod effort;
 pub mod evidence;
@@ -42,6 +43,7 @@ pub mod verdict;
 pub mod voltage_spectrum;
 mod zero_one;
 
+pub use arrival::arrive;
 pub use effort::Effort;
 pub use inquiry::Inquiry;
 pub use lyapunov::Exponent;

@@ -31,15 +31,16 @@ fn weight(k: usize, count: usize) -> f64 {
     (-1.0 / (x * (1.0 - x))).exp()
 }
 
+/// The weights of a record of `count` values in their weighted Birkhoff average; their sum is 1.
+pub fn weights(count: usize) -> Vec<f64> {
+    let weights: Vec<f64> = (0..count).map(|k| weight(k, count)).collect();
+    let total = weights.iter().sum::<f64>();
+    weights.into_iter().map(|weight| weight / total).collect()
+}
+
 /// The weighted Birkhoff average of `values`.
-pub(in crate::dynamics) fn weighted_average(values: &[f64]) -> f64 {
-    let (mut sum, mut total) = (0.0, 0.0);
-    for (k, value) in values.iter().enumerate() {
-        let weight = weight(k, values.len());
-        sum += weight * value;
-        total += weight;
-    }
-    sum / total
+pub fn weighted_average(values: &[f64]) -> f64 {
+    weights(values.len()).iter().zip(values).map(|(weight, value)| weight * value).sum()
 }
 
 /// Largest difference of the weighted averages of the two halves of a record, of the values and of their squares, over

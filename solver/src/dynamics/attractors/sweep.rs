@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::dielectric::{WithLoss, reach_with_loss};
 use super::effort::Effort;
 use super::motion::{Cell, Motion};
+use super::settle::reach;
 use crate::dynamics::integration::{Collocation, Measures, RunError, Settings};
 use crate::model::{Along, ModelChoice, ModelError, Parameter, ParameterSet, ReducedSystem};
 
@@ -148,7 +149,8 @@ impl Held {
 /// Holds `system` from the state `from` until its motion has settled, and for as long as `dwell` says.
 fn hold(system: &ReducedSystem, along: Along, from: &[f64], dwell: Dwell) -> Result<Held, RunError> {
     let effort = Effort { least: dwell.discarded, ..Effort::cell() };
-    let WithLoss { system, reached, .. } = reach_with_loss(system, along, from, effort)?;
+    let WithLoss { system, reached, .. } =
+        reach_with_loss(system, along, &|system| reach(system, from, effort))?;
     let mut held = Held::of(reached.cell());
     if held.point.ended {
         return Ok(held);

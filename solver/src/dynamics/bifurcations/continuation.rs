@@ -43,10 +43,11 @@ const ON_CIRCLE: f64 = 1e-4;
 const ON_AXIS: f64 = 1e-3;
 /// A multiplier this close to the unit circle may be on either side of it.
 const NEUTRAL: f64 = 1e-8;
-/// Distances at which the doubled branch is looked for beside its origin, in units of the gap.
+/// Distances at which the doubled branch is looked for beside its origin, in units of the gap: the usual ones first, then closer
+/// ones, for what leaves it steeply.
 const OFFSETS: [f64; 6] = [3e-3, 1e-2, 3e-2, 1e-3, 3e-4, 1e-4];
-/// What half its period does at least to a doubled orbit, in units of that distance: twice it next to the origin. The orbit that
-/// doubles may come as far along the same direction, where the parameter moves it.
+/// Least distance between the two halves of a doubled orbit, in units of that distance; next to the origin it is 2. Where the
+/// parameter moves the orbit that doubles along the same direction, the correction may end on that one, where it is 0.
 const HALF_AWAY: f64 = 0.5;
 
 /// Follows the branch of `course` from the orbit of `system` near `state` (length 2N + 1).
@@ -68,24 +69,25 @@ pub fn follow_branch(system: &ReducedSystem, state: &[f64], course: &Course) -> 
 
 /// Follows the forced motions through the range of `course` from its low end and, where that does not come through to the one of
 /// the high end, from there, too. `forced` gives the device with a value of the parameter, and the state of its forced motion.
-/// The second is `None` where the first arrives.
 ///
 /// # Errors
-/// Of each its own: those of `forced` at its end, and of [`follow_branch`].
+/// Those of `forced` and of [`follow_branch`] at the low end, where there is no branch from the high one either.
 pub fn follow_forced(
     forced: &dyn Fn(f64) -> Result<(ReducedSystem, Vec<f64>), OrbitError>,
     course: &Course,
-) -> (Result<Branch, OrbitError>, Option<Result<Branch, OrbitError>>) {
+) -> Result<Vec<Branch>, OrbitError> {
     let follow = |(system, state): &(ReducedSystem, Vec<f64>), upwards| {
         follow_branch(system, state, &Course { upwards, ..*course })
     };
     let low = forced(course.range.0).and_then(|start| follow(&start, true));
     let high = match forced(course.range.1) {
-        Ok(start) if low.as_ref().is_ok_and(|branch| arrives(branch, course, &start)) => return (low, None),
-        Ok(start) => follow(&start, false),
-        Err(reason) => Err(reason),
+        Ok(start) if low.as_ref().is_ok_and(|branch| arrives(branch, course, &start)) => None,
+        start => start.and_then(|start| follow(&start, false)).ok(),
     };
-    (low, Some(high))
+    match (low, high) {
+        (Err(reason), None) => Err(reason),
+        (low, high) => Ok(low.into_iter().chain(high).collect()),
+    }
 }
 
 /// Whether a branch ends in the motion with this state at the high end of the course.

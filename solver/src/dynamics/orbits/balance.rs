@@ -45,20 +45,55 @@ impl Balance {
         state: &[f64],
         periods: usize,
     ) -> Result<Option<Self>, IntegrationError> {
-        let end = periods as f64 * system.parameters.period();
+        let whole = vec![1.0 / periods as f64; periods];
+        Ok(Self::averaged(system, state, &whole)?.map(|(balance, _)| balance))
+    }
+
+    /// The same with a weight of each excitation period, whose sum is 1: where a motion never repeats, its means depend on them.
+    /// With the mean electrical power of each period.
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub fn averaged(
+        system: &ReducedSystem,
+        state: &[f64],
+        weights: &[f64],
+    ) -> Result<Option<(Self, Vec<f64>)>, IntegrationError> {
+        let period = system.parameters.period();
         let mut integrator = Collocation::new(system, state, Settings { tolerance: TOLERANCE })?;
         let mut reader = Reader::new(system);
-        let outcome = loop {
-            let outcome = integrator.advance(end, usize::MAX, &mut |step| reader.record(step))?;
-            if let Some(outcome) = outcome {
-                break outcome;
+        let mut means = [0.0; 4];
+        let mut stored = 0.0;
+        let mut powers = Vec::with_capacity(weights.len());
+        let mut before = energy(system, state);
+        for (k, weight) in weights.iter().enumerate() {
+            reader.integrals = [0.0; 4];
+            let outcome = loop {
+                let end = (k + 1) as f64 * period;
+                if let Some(outcome) = integrator.advance(end, usize::MAX, &mut |step| reader.record(step))? {
+                    break outcome;
+                }
+            };
+            if outcome != Outcome::Completed {
+                return Ok(None);
             }
-        };
-        let gained = energy(system, integrator.state()) - energy(system, state);
-        let completed = outcome == Outcome::Completed;
-        Ok(completed.then(|| reader.balance(gained)))
+            let now = energy(system, integrator.state());
+            stored += weight * (now - before) / period;
+            before = now;
+            for (mean, integral) in means.iter_mut().zip(&reader.integrals) {
+                *mean += weight * integral / period;
+            }
+            powers.push(reader.integrals[ELECTRICAL] / period);
+        }
+        let [input, viscous, power, square] = means;
+        let seen = reader.observer.measures(system.parameters.kappa).unwrap_or_default();
+        let measures = Measures { v_rms: square.sqrt(), power, ..seen };
+        Ok(Some((Self { input, viscous, stored, measures }, powers)))
     }
 }
+
+/// Place of the electrical power among the integrals.
+const ELECTRICAL: usize = 2;
 
 /// Integrates the powers step by step.
 struct Reader<'a> {
@@ -66,7 +101,6 @@ struct Reader<'a> {
     weights: Vec<f64>,
     /// Input, viscous, electrical power and v^2.
     integrals: [f64; 4],
-    duration: f64,
     observer: Observer,
     state: Vec<f64>,
     workspace: Workspace,
@@ -78,7 +112,6 @@ impl<'a> Reader<'a> {
             system,
             weights: gauss_legendre(NODES).1,
             integrals: [0.0; 4],
-            duration: 0.0,
             observer: Observer::default(),
             state: Vec::new(),
             workspace: Workspace::default(),
@@ -108,14 +141,6 @@ impl<'a> Reader<'a> {
                 *integral += weight * length * value;
             }
         }
-        self.duration += length;
-    }
-
-    fn balance(&self, gained: f64) -> Balance {
-        let [input, viscous, power, square] = self.integrals.map(|integral| integral / self.duration);
-        let seen = self.observer.measures(self.system.parameters.kappa).unwrap_or_default();
-        let measures = Measures { v_rms: square.sqrt(), power, ..seen };
-        Balance { input, viscous, stored: gained / self.duration, measures }
     }
 }
 

@@ -148,6 +148,9 @@ fn on_harvest(context: &Context<'_>) -> bool {
 fn sentences(context: &Context<'_>, ui: &mut Ui, operating: &Operating) {
     let tokens = theme::tokens(ui);
     let mut facts = vec![say(&operating.reached.motion)];
+    if let Some(error) = operating.reached.harvest.and_then(|harvest| harvest.power_error) {
+        facts.push(fill("its mean power is known to ± {error}", &[("error", &with_unit(error, "W"))]));
+    }
     if let Some(gain) = operating.reached_gain {
         let linear = with_unit(operating.linear.measures.power, "W");
         facts.push(fill(

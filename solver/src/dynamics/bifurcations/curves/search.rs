@@ -12,13 +12,13 @@ use serde::{Deserialize, Serialize};
 use super::curve::{Curve, Start};
 use super::known::KnownCurves;
 use super::tracer::trace_curve;
-use crate::dynamics::bifurcations::branch::{Bifurcation, Branch, Course};
+use crate::dynamics::bifurcations::branch::{Bifurcation, Course};
 use crate::dynamics::bifurcations::continuation::{follow_doubled, follow_forced};
 use crate::dynamics::bifurcations::plane::{Axis, Plane};
 use crate::dynamics::orbits::march::Forced;
 use crate::dynamics::orbits::{Instability, OrbitError, OrbitSolver};
 use crate::model::{Along, Parameter, ReducedSystem};
-use crate::theory::spectrum::eigenvalues;
+use crate::theory::spectrum::frequencies;
 
 /// Most points of a branch along a line: a resonance can be followed up without end, and beyond about this many, of which a
 /// third may lie about narrow resonances, the tip moves by more than the beam's length.
@@ -70,8 +70,7 @@ pub fn search_lines(system: &ReducedSystem, plane: &Plane, search: Search) -> Re
     for (along, other) in [(0, 1), (1, 0)] {
         let across = &plane.axes()[other];
         if across.parameter == Parameter::Omega {
-            let frequencies: Vec<f64> =
-                eigenvalues(system)?.iter().map(|value| value.im).filter(|im| *im > 0.0).collect();
+            let frequencies = frequencies(system)?;
             let sums = frequencies.iter().enumerate();
             let sums = sums.flat_map(|(i, a)| frequencies[i..].iter().map(move |b| a + b));
             let mut centres: Vec<f64> = sums.chain(frequencies.iter().copied()).collect();
@@ -116,10 +115,6 @@ pub fn bifurcations_along_line(
         upwards: true,
         most_points: MOST_POINTS,
     };
-    let branches: Vec<Branch> = match follow_forced(&forced, &course) {
-        (Err(reason), None | Some(Err(_))) => return Err(reason),
-        (low, high) => [low.ok(), high.and_then(Result::ok)].into_iter().flatten().collect(),
-    };
     let start = |periods| {
         move |found: &Bifurcation| Start {
             kind: found.kind,
@@ -129,7 +124,7 @@ pub fn bifurcations_along_line(
         }
     };
     let mut starts = Vec::new();
-    for branch in branches {
+    for branch in follow_forced(&forced, &course)? {
         let Some(first) = branch.points.first() else { continue };
         let device = plane.system(system, at(first.value))?;
         starts.extend(branch.bifurcations.iter().map(start(1)));
