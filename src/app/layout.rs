@@ -245,6 +245,22 @@ mod tests {
     }
 
     #[test]
+    fn the_very_first_swipe_scrolls_the_page_also_from_its_edge() {
+        for x in [200.0, 354.0] {
+            let mut desk = Desk::new(360.0, 760.0, r#"{"scenario":{"t_end":100}}"#);
+            crate::app::widgets::touch::expect_fingers(&desk.harness.context);
+            desk.work(3);
+            let damping = |desk: &Desk| desk.harness.find(egui::Role::Slider, "Damping").bounds.top();
+            let before = damping(&desk);
+            let path: Vec<_> = (0..5).map(|i| egui::pos2(x, 740.0 - 20.0 * i as f32)).collect();
+            swipe(&mut desk, &path);
+            let moved = damping(&desk) - before;
+            // As far as the finger, and some more as it was let go moving.
+            assert!((-200.0..-70.0).contains(&moved), "{x}: {moved}");
+        }
+    }
+
+    #[test]
     fn tabs_stay_in_sight_in_the_first_picture_of_a_narrower_page() {
         for (wide, narrow) in [(1440.0, 1000.0), (1440.0, 360.0), (768.0, 360.0)] {
             let mut desk = Desk::new(wide, 900.0, r#"{"tab":"lessons"}"#);

@@ -257,12 +257,22 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
             record(context, plot, [*omega, *beta]);
         }
         for tongue in &boundaries.tongues {
-            plot_style::series(plot, Series::Published, tr("published boundary"), &tongue.published);
-            plot_style::series(plot, Series::Coupled, tr("coupled-mode boundary"), &tongue.coupled);
+            plot_style::series_on_picture(
+                plot,
+                Series::Published,
+                tr("published boundary"),
+                &tongue.published,
+            );
+            plot_style::series_on_picture(
+                plot,
+                Series::Coupled,
+                tr("coupled-mode boundary"),
+                &tongue.coupled,
+            );
         }
         for border in &exact {
             let kind = if current { Series::Exact } else { Series::Ghost };
-            plot_style::series(plot, kind, tr("Floquet boundary"), border);
+            plot_style::series_on_picture(plot, kind, tr("Floquet boundary"), border);
         }
     });
     drag_point(context, ui, &shown, (low, high), ceiling);

@@ -6,7 +6,7 @@ use super::Context;
 use crate::app::text::{fill, tr};
 use crate::app::theme;
 use crate::app::widgets::number::short;
-use crate::app::widgets::{Card, number, symbol};
+use crate::app::widgets::{Card, number, symbol, touch};
 use crate::model::materials::TABLE_2;
 use crate::model::{Device, Dimension, ElectricalScaling, Parameter, Part};
 
@@ -55,7 +55,7 @@ fn heading(ui: &mut Ui, texts: &[&str]) {
 
 fn table(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui)) {
     let gap = if ui.available_width() < NARROW { 14.0 } else { 26.0 };
-    egui::ScrollArea::horizontal().id_salt(name).show(ui, |ui| {
+    touch::sideways(ui.ctx()).id_salt(name).show(ui, |ui| {
         Grid::new(name).num_columns(2).spacing([gap, 5.0]).show(ui, contents);
     });
 }

@@ -11,7 +11,7 @@ use crate::app::session::Status;
 use crate::app::text::{self, Language, tr};
 use crate::app::view::Tab;
 use crate::app::widgets::card::has_clips;
-use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, sign, tabs};
+use crate::app::widgets::{BadgeKind, Icon, badge, icon_button, sign, tabs, touch};
 use crate::app::{fonts, theme};
 
 /// Width below which the tabs move under the switches.
@@ -43,7 +43,7 @@ pub(in crate::app) fn show(context: &mut Context<'_>, ui: &mut Ui) {
             });
             // Most steps of lessons bring their tabs along, and the plot needs the room.
             if course::step(context.view).is_none_or(Step::asks_for_a_tab) {
-                egui::ScrollArea::horizontal()
+                touch::sideways(ui.ctx())
                     .scroll_bar_visibility(SCROLL_BAR)
                     .show(ui, |ui| choose_tab(context, ui));
             }

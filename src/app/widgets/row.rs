@@ -1,6 +1,8 @@
 //! Rows of choices and legends above plots.
 
-use egui::{Context, Id, ScrollArea, Ui, scroll_area::ScrollBarVisibility};
+use egui::{Context, Id, Ui, scroll_area::ScrollBarVisibility};
+
+use super::touch;
 
 /// Height of a card's contents below which a plot needs all of it, points.
 const ROOMY: f32 = 280.0;
@@ -25,7 +27,7 @@ pub fn row<R>(ui: &mut Ui, contents: impl FnOnce(&mut Ui) -> R) -> R {
     if !is_low(ui.ctx()) {
         return ui.horizontal_wrapped(contents).inner;
     }
-    let area = ScrollArea::horizontal().id_salt(ui.next_auto_id());
+    let area = touch::sideways(ui.ctx()).id_salt(ui.next_auto_id());
     area.scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden)
         .show(ui, |ui| ui.horizontal(contents).inner)
         .inner

@@ -1,7 +1,7 @@
 //! What fingers are for. A finger on a plot scrolls the page, as everywhere else on a phone, and two of them zoom the
 //! plot; on a control made for dragging it drags. A mouse drags plots, too.
 
-use egui::scroll_area::ScrollSource;
+use egui::scroll_area::{DragScroll, ScrollSource};
 use egui::style::ScrollAnimation;
 use egui::{Context, Event, Id, Pos2, Rect, ScrollArea, TouchPhase, Ui};
 
@@ -59,9 +59,17 @@ pub fn scroll_area(context: &Context) -> ScrollArea {
     ScrollArea::vertical().scroll_source(source(context))
 }
 
-/// What such an area is scrolled by.
+/// The same of what scrolls from side to side.
+pub fn sideways(context: &Context) -> ScrollArea {
+    ScrollArea::horizontal().scroll_source(source(context))
+}
+
+/// What such an area is scrolled by. egui itself waits for a finger before its areas can be dragged, so that the first swipe of
+/// all would be lost.
 pub fn source(context: &Context) -> ScrollSource {
-    ScrollSource { scroll_bar: !in_use(context), ..ScrollSource::default() }
+    let fingers = in_use(context);
+    let drag = if fingers { DragScroll::Always } else { DragScroll::OnTouch };
+    ScrollSource { scroll_bar: !fingers, drag, ..ScrollSource::default() }
 }
 
 /// Scrolls what is around by a finger that is on something else than the ground.

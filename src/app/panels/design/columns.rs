@@ -7,8 +7,8 @@ use crate::app::command::Command;
 use crate::app::panels::Context;
 use crate::app::text::{fill, marked, tr};
 use crate::app::theme;
-use crate::app::widgets::chips;
 use crate::app::widgets::number::with_unit;
+use crate::app::widgets::{chips, touch};
 use crate::model::STANDARD_GRAVITY;
 use crate::questions::design::measured::{Ask, Kind, Sampling};
 use crate::questions::design::record::Clock;
@@ -33,7 +33,7 @@ pub(in crate::app::panels) fn preview(ui: &mut Ui, file: &File, wanted: Kind) {
     ui.add(egui::Label::new(RichText::new(text).color(tokens.warning)).wrap());
     ui.add_space(8.0);
     let columns = file.layout.columns.min(COLUMNS);
-    egui::ScrollArea::horizontal().show(ui, |ui| {
+    touch::sideways(ui.ctx()).show(ui, |ui| {
         egui::Grid::new("preview").striped(true).spacing([18.0, 6.0]).show(ui, |ui| {
             for name in names(file, columns) {
                 ui.label(RichText::new(name).small().color(tokens.text_weak));

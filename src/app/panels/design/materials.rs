@@ -8,7 +8,7 @@ use crate::app::panels::{Context, grid};
 use crate::app::text::{fill, marked, say, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
-use crate::app::widgets::{Card, chips_after};
+use crate::app::widgets::{Card, chips_after, touch};
 use crate::model::Limits;
 use crate::model::limits::Standing;
 use crate::model::materials::Ceramic;
@@ -26,7 +26,7 @@ pub(super) fn show(context: &mut Context<'_>, ui: &mut Ui) {
         ui.add_space(6.0);
         // Its bar says that there is more.
         let visible = egui::scroll_area::ScrollBarVisibility::AlwaysVisible;
-        let scroll = egui::ScrollArea::horizontal().id_salt("ceramics").scroll_bar_visibility(visible);
+        let scroll = touch::sideways(ui.ctx()).id_salt("ceramics").scroll_bar_visibility(visible);
         scroll.show(ui, |ui| table(context, ui));
         ui.add_space(6.0);
         notes(context, ui);

@@ -10,7 +10,7 @@ use crate::app::panels::{Context, grid, list, plots};
 use crate::app::text::{fill, say, tr};
 use crate::app::theme;
 use crate::app::widgets::number::{significant, with_unit};
-use crate::app::widgets::{Card, chips};
+use crate::app::widgets::{Card, chips, touch};
 use crate::dynamics::Motion;
 use crate::model::{ForceLaw, MAX_MODES};
 use crate::questions::design::trust::{
@@ -230,7 +230,7 @@ fn table(context: &mut Context<'_>, ui: &mut Ui) {
     let quantity = context.view.design.quantity;
     ui.spacing_mut().interact_size.y = 24.0;
     let gap = if ui.available_width() < PHONE { 5.0 } else { 16.0 };
-    egui::ScrollArea::horizontal().id_salt("trust").show(ui, |ui| {
+    touch::sideways(ui.ctx()).id_salt("trust").show(ui, |ui| {
         Grid::new("trust").num_columns(LAWS.len() + 1).spacing([gap, 3.0]).show(ui, |ui| {
             ui.label(RichText::new(tr("modes")).small().color(tokens.text_weak));
             for name in NAMES {

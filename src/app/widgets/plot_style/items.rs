@@ -13,6 +13,9 @@ use crate::export::figure::Anchor;
 
 /// Opacity of what is behind a name on a plot.
 const BEHIND: f32 = 0.65;
+/// Opacity of the lane under a curve over a picture, and how far it reaches beyond the curve, points.
+const LANE: f32 = 0.75;
+const BESIDE: f32 = 1.6;
 
 /// A curve in the style of its kind. Points that are not finite leave gaps. The name shows at the pointer.
 pub fn series<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [PlotPoint]) {
@@ -23,6 +26,14 @@ pub fn series<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [P
     }
     record(plot, name, Some(kind), colour, pen, curve);
     draw(plot, name, colour, pen, kind != Series::Ghost, curve);
+}
+
+/// The same over a picture, which may have its colour: on a lane of the card's.
+pub fn series_on_picture<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [PlotPoint]) {
+    let colour = theme::tokens_in(plot.ctx()).card.gamma_multiply(LANE);
+    let (width, _) = style(kind.pen());
+    draw(plot, "", colour, Pen::Line(width + 2.0 * BESIDE), false, curve);
+    series(plot, kind, name, curve);
 }
 
 /// A curve that belongs to no kind, in a style of its own.
