@@ -13,6 +13,7 @@ use super::find::Evaluate;
 use super::motions::Coordinate;
 use super::question::Question;
 use super::subject::ACCELERATION_UNIT;
+use crate::model::limits::{Standing, sag};
 use crate::model::{Limits, ModelError};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
@@ -87,7 +88,9 @@ pub struct Nominal {
     pub frequency: Option<f64>,
     /// Lowest acceleration that opens the tongue.
     pub threshold: Option<f64>,
-    /// Whether the limits are kept.
+    /// Whether the limits that are known are kept.
+    pub within_limits: bool,
+    /// Whether it is safe, as the task `limits` says it: the voltage's limit is known, too, and the model is valid.
     pub safe: bool,
 }
 
@@ -121,10 +124,15 @@ pub struct Spread {
     pub samples: usize,
     /// Share of them whose motion lasts.
     pub lasting: f64,
-    /// Share of them that keep the limits.
+    /// Share of them that keep the limits that are known.
+    pub within_limits: f64,
+    /// Share of them that are safe, as the task `limits` says it: that, or none where the voltage's limit is not known or the
+    /// model is not valid.
     pub safe: f64,
-    /// Whether a limit of the voltage is known; what is not checked is not safe.
+    /// Whether a limit of the voltage is known.
     pub voltage_checked: bool,
+    /// Whether the device as it is meant sags little enough for the model.
+    pub model_valid: bool,
     /// Power of those that last.
     pub power: Option<Distribution>,
 }
@@ -179,14 +187,23 @@ impl Piece for Meant {
         let scenario = &self.space.scenario;
         let none = DesignSpace { variables: Vec::new(), ..self.space.clone() };
         let found = Evaluate { space: none, values: Vec::new() }.carry_out()?;
+        let within_limits = found.value.is_some() && found.violation == 0.0;
+        let (voltage_checked, model_valid) = judged(scenario, &self.space.limits);
         Ok(Nominal {
             motion: found.motion.map_or_else(|| "none".to_owned(), class),
             power: found.value,
             frequency: resonance_frequency(scenario)?,
             threshold: threshold(scenario, self.resonance).ok().flatten(),
-            safe: found.value.is_some() && found.violation == 0.0,
+            within_limits,
+            safe: within_limits && voltage_checked && model_valid,
         })
     }
+}
+
+/// Whether a limit of the voltage is known for the device of `scenario`, and whether it sags little enough for the model.
+fn judged(scenario: &Scenario, limits: &Limits) -> (bool, bool) {
+    let stands = scenario.device().is_ok_and(|device| sag(&device).standing == Standing::Within);
+    (limits.completed(&scenario.base()).voltage.is_some(), stands)
 }
 
 /// What one dimension does.
@@ -312,12 +329,15 @@ impl ToleranceStudy {
             let count = known.iter().filter(|sample| of(sample)).count();
             if known.is_empty() { 0.0 } else { count as f64 / known.len() as f64 }
         };
-        let limits = self.asked.1.limits.completed(&self.asked.0.base());
+        let (voltage_checked, model_valid) = judged(&self.asked.0, &self.asked.1.limits);
+        let within_limits = share(&|sample| sample.value.is_some() && sample.violation == 0.0);
         Spread {
             samples: known.len(),
             lasting: share(&|sample| sample.value.is_some()),
-            safe: share(&|sample| sample.value.is_some() && sample.violation == 0.0),
-            voltage_checked: limits.voltage.is_some(),
+            within_limits,
+            safe: if voltage_checked && model_valid { within_limits } else { 0.0 },
+            voltage_checked,
+            model_valid,
             power: Distribution::of(&self.powers()),
         }
     }

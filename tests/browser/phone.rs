@@ -159,6 +159,8 @@ fn a_vertical_swipe_over_any_slider_scrolls_and_changes_no_value() {
 fn a_swipe_along_the_edge_scrolls_the_page_the_way_it_goes() {
     let mut page = Page::open(360, 760, Theme::Dark);
     page.touches();
+    // A phone has fingers before it has the page.
+    page.reload();
     for tab in ["explore", "design", "paper"] {
         open_tab(&mut page, tab);
         let before = controls(&page);

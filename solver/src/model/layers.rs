@@ -240,6 +240,11 @@ impl Layers {
     /// The scaling under which they give the coupling.
     pub const SCALING: ElectricalScaling = ElectricalScaling::Consistent;
 
+    /// Plates whose voltages add between the terminals.
+    pub fn plates_in_series(&self) -> u8 {
+        if self.arrangement == Arrangement::Series { 2 } else { 1 }
+    }
+
     /// The layers from the bottom to the top.
     pub fn stack(&self) -> Vec<Layer> {
         let (substrate, plate) = (&self.substrate, &self.ceramic);
@@ -517,6 +522,18 @@ mod tests {
 
     fn stiffness(found: &Laminate) -> f64 {
         found.youngs_modulus * found.second_moment
+    }
+
+    #[test]
+    fn plates_in_series_bear_twice_the_voltage_of_one() {
+        use crate::model::{Limits, materials::Ceramic};
+        let of = |arrangement| {
+            let device = Device { ceramic: Some(Ceramic::Apc855), ..Default::default() };
+            Limits::of(&device.with_layers(bimorph(arrangement))).voltage.expect("published")
+        };
+        // The same beam moves alike with both, and each plate bears the same.
+        let (parallel, series) = (of(Arrangement::Parallel), of(Arrangement::Series));
+        assert_eq!((2.0 * parallel.0, 2.0 * parallel.1), series);
     }
 
     #[test]

@@ -142,9 +142,11 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// Section 5.4: the limits of `device`, whose ceramic of its thickness bears the published field.
+    /// Section 5.4: the limits of `device`, whose ceramic of its thickness bears the published field. Of plates in series, whose
+    /// voltages add, each has its part of the voltage.
     pub fn of(device: &Device) -> Self {
-        let mils = device.ceramic_thickness / METRES_PER_MIL;
+        let plates = device.layers.map_or(1, |layers| layers.plates_in_series());
+        let mils = f64::from(plates) * device.ceramic_thickness / METRES_PER_MIL;
         let field = device.ceramic.and_then(|ceramic| ceramic.material().field_limit);
         Self { voltage: field.map(|(low, high)| (low * mils, high * mils)), ..Self::default() }
     }

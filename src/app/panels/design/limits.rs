@@ -32,6 +32,9 @@ pub(super) fn controls(context: &mut Context<'_>, ui: &mut Ui) {
         }
         None => {
             let millimetres = round_significant(1e3 * base.ceramic_thickness, 4);
+            let plates = base.layers.map_or(1, |layers| layers.plates_in_series());
+            let millimetres =
+                if plates == 1 { millimetres.to_string() } else { format!("{plates} × {millimetres}") };
             let text = match (published, base.ceramic) {
                 (Some((low, high)), Some(ceramic)) => fill(
                     "{ceramic} of {millimetres} mm bears {low} to {high} (section 5.4, read as peaks; the motion's peak is compared).",

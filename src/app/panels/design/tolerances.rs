@@ -53,7 +53,7 @@ fn scatter(context: &mut Context<'_>, ui: &mut Ui) {
         let ends = [power.p5, power.p95].map(|power| with_unit(power, "W"));
         line(ui, fill("nine in ten give {from} to {to}", &[("from", &ends[0]), ("to", &ends[1])]));
         line(ui, fill("half give {power} or more", &[("power", &with_unit(power.median, "W"))]));
-        let percent = significant(100.0 * spread.safe, 3);
+        let percent = significant(100.0 * spread.within_limits, 3);
         let text = if spread.voltage_checked {
             fill(
                 "{percent} % of {count} keep the limits",

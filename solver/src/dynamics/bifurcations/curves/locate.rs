@@ -71,7 +71,10 @@ pub(super) fn halved(
         _ if here.condition.cosine > 0.5 => SpecialKind::OneToTwo,
         _ => SpecialKind::FlipNeimarkSacker,
     };
-    doubles.then(|| (kind, here.clone().moved(surface, place)))
+    if !doubles {
+        return None;
+    }
+    Some((kind, here.clone().moved(surface, place).ok()?))
 }
 
 /// Multipliers over half the period of the orbit at `place`.

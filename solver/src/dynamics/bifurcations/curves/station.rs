@@ -6,6 +6,7 @@ use super::condition::Condition;
 use super::curve::{CurvePoint, SpecialKind, SpecialPoint};
 use super::normal_form::NormalForm;
 use super::surface::{Direction, Fold, Surface};
+use crate::dynamics::bifurcations::arclength::Family;
 use crate::dynamics::integration::measures::Observer;
 use crate::dynamics::integration::{Measures, Step};
 use crate::dynamics::orbits::period_map::StepDerivative;
@@ -40,6 +41,21 @@ pub(super) struct Station {
     measures: Measures,
 }
 
+/// The numbers of the orbit at `place`, whose derivative is evaluated with them.
+fn measured(family: &mut Family<2>, place: &DVector<f64>) -> Result<Measures, OrbitError> {
+    let (state, beta, periods) = (family.state(place), family.beta(), family.periods);
+    loop {
+        let mut observer = Observer::default();
+        let seen = |step: &Step<'_>, _: &StepDerivative<'_>| {
+            observer.record(step, 1.0);
+        };
+        if family.solver.evaluate_observed_at(&state, beta, periods, seen)? <= 1.0 {
+            return Ok(observer.measures(family.system.parameters.kappa).unwrap_or_default());
+        }
+        family.solver.map().refine()?;
+    }
+}
+
 impl Station {
     /// Reads the orbit at `place`, on the side of `like` in everything that has two; the first one has the
     /// `condition` of its kind.
@@ -61,17 +77,7 @@ impl Station {
         } else {
             None
         };
-        let observer = loop {
-            let mut observer = Observer::default();
-            let seen = |step: &Step<'_>, _: &StepDerivative<'_>| {
-                observer.record(step, 1.0);
-            };
-            if family.solver.evaluate_observed_at(&state, beta, periods, seen)? <= 1.0 {
-                break observer;
-            }
-            family.solver.map().refine()?;
-        };
-        let measures = observer.measures(family.system.parameters.kappa).unwrap_or_default();
+        let measures = measured(family, &place)?;
         let at = family.values(&place);
         let multipliers = family.solver.multipliers()?;
         let condition = condition.renewed(&multipliers).ok_or(OrbitError::Multipliers)?;
@@ -124,12 +130,14 @@ impl Station {
         self
     }
 
-    /// The same at another `place` near it, without what must be computed there.
-    pub(super) fn moved(mut self, surface: &Surface, place: DVector<f64>) -> Self {
+    /// The same at another `place` near it, without what only the condition tells there.
+    pub(super) fn moved(mut self, surface: &mut Surface, place: DVector<f64>) -> Result<Self, OrbitError> {
+        surface.family.set(surface.family.values(&place))?;
+        self.measures = measured(&mut surface.family, &place)?;
         self.at = surface.family.values(&place);
         self.place = place;
         (self.form, self.direction.fold) = (None, None);
-        self
+        Ok(self)
     }
 
     pub(super) fn point(&self, surface: &Surface) -> CurvePoint {
