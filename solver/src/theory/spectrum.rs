@@ -42,7 +42,7 @@ pub fn eigenvalues(system: &ReducedSystem) -> Result<Vec<Complex<f64>>, TheoryEr
 /// The natural frequencies of beam and circuit together (dimensionless), ascending.
 ///
 /// # Errors
-/// As [`eigenvalues`].
+/// As [`eigenvalues()`].
 pub fn frequencies(system: &ReducedSystem) -> Result<Vec<f64>, TheoryError> {
     Ok(eigenvalues(system)?.iter().map(|value| value.im).filter(|im| *im > 0.0).collect())
 }
