@@ -13,7 +13,7 @@ use super::find::Evaluate;
 use super::motions::Coordinate;
 use super::question::Question;
 use super::subject::ACCELERATION_UNIT;
-use crate::model::limits::{Standing, sag};
+use crate::model::limits::{Assessment, Standing, sag};
 use crate::model::{Limits, ModelError};
 use crate::scenario::{Scenario, counted};
 use crate::scheduler::{Asked, Budget, Failure, Order, Piece, Study, complete_within};
@@ -188,22 +188,21 @@ impl Piece for Meant {
         let none = DesignSpace { variables: Vec::new(), ..self.space.clone() };
         let found = Evaluate { space: none, values: Vec::new() }.carry_out()?;
         let within_limits = found.value.is_some() && found.violation == 0.0;
-        let (voltage_checked, model_valid) = judged(scenario, &self.space.limits);
         Ok(Nominal {
             motion: found.motion.map_or_else(|| "none".to_owned(), class),
             power: found.value,
             frequency: resonance_frequency(scenario)?,
             threshold: threshold(scenario, self.resonance).ok().flatten(),
             within_limits,
-            safe: within_limits && voltage_checked && model_valid,
+            safe: within_limits && safe_if_kept(scenario, &self.space.limits)?,
         })
     }
 }
 
-/// Whether a limit of the voltage is known for the device of `scenario`, and whether it sags little enough for the model.
-fn judged(scenario: &Scenario, limits: &Limits) -> (bool, bool) {
-    let stands = scenario.device().is_ok_and(|device| sag(&device).standing == Standing::Within);
-    (limits.completed(&scenario.base()).voltage.is_some(), stands)
+/// Whether the device of `scenario` is safe where it keeps the limits that are known.
+fn safe_if_kept(scenario: &Scenario, limits: &Limits) -> Result<bool, ModelError> {
+    let limits = limits.completed(&scenario.base());
+    Ok(Assessment::of_kept(&limits, &sag(&scenario.device()?)) == Assessment::WithinLimits)
 }
 
 /// What one dimension does.
@@ -329,15 +328,16 @@ impl ToleranceStudy {
             let count = known.iter().filter(|sample| of(sample)).count();
             if known.is_empty() { 0.0 } else { count as f64 / known.len() as f64 }
         };
-        let (voltage_checked, model_valid) = judged(&self.asked.0, &self.asked.1.limits);
+        let (scenario, limits) = (&self.asked.0, self.asked.1.limits);
+        let sags = scenario.device().map(|device| sag(&device).standing);
         let within_limits = share(&|sample| sample.value.is_some() && sample.violation == 0.0);
         Spread {
             samples: known.len(),
             lasting: share(&|sample| sample.value.is_some()),
             within_limits,
-            safe: if voltage_checked && model_valid { within_limits } else { 0.0 },
-            voltage_checked,
-            model_valid,
+            safe: if safe_if_kept(scenario, &limits).unwrap_or(false) { within_limits } else { 0.0 },
+            voltage_checked: limits.completed(&scenario.base()).voltage.is_some(),
+            model_valid: sags.is_ok_and(|standing| standing == Standing::Within),
             power: Distribution::of(&self.powers()),
         }
     }

@@ -113,29 +113,18 @@ fn the_threshold_of_the_papers_device_has_sensitivities_and_bad_requests_are_nam
 
 #[test]
 fn safe_is_what_the_task_limits_calls_safe() {
-    let ask = |task: &str, device: Value| {
-        let samples = if task == "tolerances" { json!({"samples": 8}) } else { json!({}) };
-        let mut request =
-            json!({"task": task, "device": device, "acceleration": 0.005, "scaling": "consistent"});
-        let fields = request.as_object_mut().expect("an object");
-        fields.extend(samples.as_object().expect("an object").clone());
-        answer(&request)
-    };
-    let level = json!({"gravity": 0.0, "frequency": 1.42});
-    let with = |more: Value| {
-        let mut device = level.clone();
-        device.as_object_mut().expect("an object").extend(more.as_object().expect("an object").clone());
-        device
-    };
     for (device, assessment, known) in [
         // No ceramic, so nothing is known of the voltage that it bears; hung level, the paper's beam sags too far.
-        (level.clone(), "unchecked", (false, true)),
+        (json!({"gravity": 0.0, "frequency": 1.42}), "unchecked", (false, true)),
         (json!({"frequency": 2.0, "ceramic": "apc855"}), "model_not_valid", (true, false)),
-        (with(json!({"ceramic": "apc855"})), "within_limits", (true, true)),
+        (json!({"gravity": 0.0, "frequency": 1.42, "ceramic": "apc855"}), "within_limits", (true, true)),
     ] {
-        let limits = ask("limits", device.clone());
+        let mut request =
+            json!({"task": "limits", "device": device, "acceleration": 0.005, "scaling": "consistent"});
+        let limits = answer(&request);
         assert_eq!(limits["assessment"], assessment, "{limits}");
-        let found = ask("tolerances", device);
+        (request["task"], request["samples"]) = (json!("tolerances"), json!(8));
+        let found = answer(&request);
         let (nominal, shares) = (&found["nominal"], &found["yield"]);
         assert_eq!((&nominal["within_limits"], &shares["within_limits"]), (&json!(true), &json!(1.0)));
         assert_eq!((&shares["voltage_checked"], &shares["model_valid"]), (&json!(known.0), &json!(known.1)));

@@ -67,7 +67,14 @@ impl Assessment {
             Self::Exceeded
         } else if some(Standing::Marginal) {
             Self::Marginal
-        } else if sag.standing != Standing::Within {
+        } else {
+            Self::of_kept(limits, sag)
+        }
+    }
+
+    /// Where every limit that is known is kept.
+    pub fn of_kept(limits: &Limits, sag: &Check) -> Self {
+        if sag.standing != Standing::Within {
             Self::ModelNotValid
         } else if limits.voltage.is_none() {
             Self::Unchecked

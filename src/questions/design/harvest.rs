@@ -170,17 +170,23 @@ pub fn sampled(plant: &Plant, system: &ReducedSystem, initial: &[f64]) -> Result
 fn delivering((plant, found): (Plant, WithLoss)) -> Result<Lasting, DesignError> {
     let WithLoss { system, reached, line } = found;
     let motion = reached.motion;
-    let harvest = match (&reached.orbit, motion) {
+    let period = match (&reached.orbit, motion) {
+        (Some(orbit), _) => Some((&orbit.state, orbit.periods)),
+        (None, Motion::Periodic { periods }) => Some((&reached.state, periods)),
+        (None, _) => None,
+    };
+    let harvest = match (period, motion) {
         (_, Motion::Escape { .. } | Motion::Contact { .. }) => None,
-        (Some(orbit), _) => Balance::of(&system, &orbit.state, orbit.periods)?
-            .map(|balance| Harvest::new(&plant, &system, &balance)),
-        (None, _) => without_end(&plant, &system, &reached)?,
+        (Some((state, periods)), _) => {
+            Balance::of(&system, state, periods)?.map(|balance| Harvest::new(&plant, &system, &balance))
+        }
+        (None, _) => never_repeating(&plant, &system, &reached)?,
     };
     Ok(Lasting { motion, harvest, dielectric_frequency: line.map(|line| plant.units.hertz(line)) })
 }
 
 /// What a motion of `system`, one of `plant`, that never repeats delivers, by a record of it.
-fn without_end(
+fn never_repeating(
     plant: &Plant,
     system: &ReducedSystem,
     reached: &Reached,

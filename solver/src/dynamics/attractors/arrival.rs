@@ -86,6 +86,15 @@ impl Arrival {
     pub(super) fn depends_on_rounding(&self) -> bool {
         self.ends.len() > 1
     }
+
+    /// The motion reached, undecided where rounding decides on it.
+    pub(super) fn motion(&self) -> Motion {
+        if self.depends_on_rounding() {
+            Motion::Undecided { why: Undecided::DependsOnRounding }
+        } else {
+            self.reached.motion
+        }
+    }
 }
 
 /// What motion the start of `system` in `initial` (length 2N + 1) at t = 0 leads to, for one start that people will rely on: with
@@ -96,12 +105,7 @@ impl Arrival {
 pub fn arrive(system: &ReducedSystem, initial: &[f64]) -> Result<Reached, IntegrationError> {
     let forced = ForcedMotion::of(system).ok();
     let arrival = Arrival::of(&mut Settler::new(system), (system, initial), forced.as_ref())?;
-    let motion = if arrival.depends_on_rounding() {
-        Motion::Undecided { why: Undecided::DependsOnRounding }
-    } else {
-        arrival.reached.motion
-    };
-    Ok(Reached { motion, ..arrival.reached })
+    Ok(Reached { motion: arrival.motion(), ..arrival.reached })
 }
 
 /// Whether a motion is known that chaos may only be the way to.

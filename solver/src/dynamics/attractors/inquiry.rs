@@ -29,6 +29,7 @@ const EXPONENT_PERIODS: (usize, usize) = (192, 8192);
 const ACCURATE: f64 = 0.02;
 /// Decay of the tangent vectors over the record after which it is long enough whatever the interval says.
 const LONG: f64 = 200.0;
+
 /// What was found out about the motion that a start leads to.
 #[derive(Debug)]
 pub struct Inquiry {
@@ -50,10 +51,9 @@ impl Inquiry {
     pub fn new(system: &ReducedSystem, initial: &[f64], t_end: f64) -> Result<Self, VerdictError> {
         let mut settler = Settler::new(system);
         let forced = ForcedMotion::of(system).ok();
-        let arrival = Arrival::of(&mut settler, (system, initial), forced.as_ref())?;
-        let rounding_decides = arrival.depends_on_rounding();
-        let Arrival { mut reached, ends, separated } = arrival;
-        let spectrum = spectrum(system, &mut reached)?;
+        let mut arrival = Arrival::of(&mut settler, (system, initial), forced.as_ref())?;
+        let spectrum = spectrum(system, &mut arrival.reached)?;
+        let reached = &arrival.reached;
         let exponent = match &reached.orbit {
             Some(orbit) => exponent_on(system, &orbit.state)?,
             // Averages converge sooner than an exponent about zero.
@@ -64,17 +64,17 @@ impl Inquiry {
             true => None,
             false => Some(settler.reach(&vec![0.0; initial.len()], Effort::full())?),
         };
-        let others = Others { ends, rounding_decides, separated, from_rest, met: settler.stable_orbits() };
+        let others = Others { arrival: &arrival, from_rest, met: settler.stable_orbits() };
         let findings = Findings {
             system,
             t_end,
-            reached: &reached,
+            reached,
             exponent,
             spectrum: spectrum.as_ref(),
             forced: forced.as_ref(),
         };
         let verdict = findings.conclude(&others);
-        Ok(Self { verdict, reached, spectrum, forced })
+        Ok(Self { verdict, reached: arrival.reached, spectrum, forced })
     }
 }
 
@@ -114,10 +114,8 @@ fn spectrum(system: &ReducedSystem, reached: &mut Reached) -> Result<Option<Volt
 }
 
 /// What else was met at the same parameters.
-struct Others {
-    ends: Vec<(Signature, usize)>,
-    rounding_decides: bool,
-    separated: bool,
+struct Others<'a> {
+    arrival: &'a Arrival,
     from_rest: Option<Reached>,
     /// Stable orbits that Newton's iteration came upon.
     met: Vec<Signature>,
@@ -135,7 +133,7 @@ struct Findings<'a> {
 
 impl Findings<'_> {
     /// Puts everything together.
-    fn conclude(&self, others: &Others) -> Verdict {
+    fn conclude(&self, others: &Others<'_>) -> Verdict {
         let Self { system, reached, exponent, spectrum, forced, .. } = *self;
         let suspected = reached.motion;
         let gap = system.equilibrium.gap;
@@ -143,10 +141,8 @@ impl Findings<'_> {
         let rests_on = self.evidence(rotation, others);
         let disagreeing: Vec<EvidenceSource> =
             rests_on.iter().filter(|piece| piece.agrees == Some(false)).map(Evidence::source).collect();
-        let motion = if others.rounding_decides {
-            Motion::Undecided { why: Undecided::DependsOnRounding }
-        } else if disagreeing.is_empty() {
-            suspected
+        let motion = if others.arrival.depends_on_rounding() || disagreeing.is_empty() {
+            others.arrival.motion()
         } else {
             Motion::Undecided { why: Undecided::EvidenceDisagrees }
         };
@@ -170,7 +166,7 @@ impl Findings<'_> {
             rests_on,
             disagreeing,
             coexists: self.coexists(others),
-            warnings: self.warnings(others.separated),
+            warnings: self.warnings(others.arrival.separated),
         }
     }
 
@@ -228,12 +224,12 @@ impl Findings<'_> {
         strobe.dimension()
     }
 
-    fn evidence(&self, rotation: Option<Rotation>, others: &Others) -> Vec<Evidence> {
+    fn evidence(&self, rotation: Option<Rotation>, others: &Others<'_>) -> Vec<Evidence> {
         let reached = self.reached;
         let motion = reached.motion;
         let mut evidence = Vec::new();
-        if others.rounding_decides {
-            evidence.push(Evidence::beside(&others.ends));
+        if others.arrival.depends_on_rounding() {
+            evidence.push(Evidence::beside(&others.arrival.ends));
         }
         if !reached.cell().lasts() {
             evidence.push(Evidence::supporting(Observation::Run(motion)));
@@ -254,7 +250,7 @@ impl Findings<'_> {
     }
 
     /// Other attracting motions that were met, each once.
-    fn coexists(&self, others: &Others) -> Vec<Coexisting> {
+    fn coexists(&self, others: &Others<'_>) -> Vec<Coexisting> {
         let recogniser = Recogniser::new(self.system);
         let mut known = vec![Signature::of(self.reached.clone())];
         let mut found = Vec::new();
@@ -266,7 +262,7 @@ impl Findings<'_> {
                 known.push(signature);
             }
         };
-        for (end, _) in others.ends.iter().skip(1) {
+        for (end, _) in others.arrival.ends.iter().skip(1) {
             add(OtherStart::Beside, end.clone());
         }
         let stable = self.forced.and_then(|forced| forced.orbit.as_ref()).filter(|orbit| orbit.stable());

@@ -9,7 +9,8 @@
 //!   `neighbourhood` tells whether they lie in the linear neighbourhood of a periodic motion, and what they do there;
 //!   [`rotation`] has means and frequencies by weighted Birkhoff averages, `zero_one` the 0-1 test for chaos, [`lyapunov`]
 //!   the exponents, from the growth of `tangent` vectors. `meter` measures what does not repeat.
-//! * `arrival` says whether rounding decides where a start leads. [`dielectric`] takes a dielectric's loss at the frequency of the motion that it has a part in.
+//! * `arrival` says whether rounding decides where a start leads.
+//! * [`dielectric`] takes a dielectric's loss at the frequency of the motion that it has a part in.
 //! * [`rectified`] follows the device with a rectifier until its cycle repeats.
 //! * [`signature`] tells whether two starts lead to the same motion; [`sweep`] carries a motion from one value of a
 //!   parameter to the next.
