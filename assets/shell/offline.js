@@ -4,11 +4,7 @@ const element = (id) => document.getElementById(id);
 const workers = navigator.serviceWorker;
 
 // Kept for later only where the address allows it (https, or this very computer); without, the page works as before.
-async function keep() {
-  const renewed = Boolean(workers.controller);
-  workers.addEventListener("controllerchange", () => {
-    if (renewed) element("newer").hidden = false;
-  });
+async function keep(renewed) {
   const registration = await workers.register("service.js");
   // Left alone, the browser would look for a newer version half a minute later.
   if (renewed) await registration.update();
@@ -17,6 +13,11 @@ async function keep() {
 element("renew").addEventListener("click", () => location.reload());
 element("later").addEventListener("click", () => (element("newer").hidden = true));
 if (workers) {
+  // At once: a newer version may take over before a slow page has loaded.
+  const renewed = Boolean(workers.controller);
+  workers.addEventListener("controllerchange", () => {
+    if (renewed) element("newer").hidden = false;
+  });
   // After the page itself: keeping it for later must not delay it now.
-  addEventListener("load", () => keep().catch(() => {}));
+  addEventListener("load", () => keep(renewed).catch(() => {}));
 }

@@ -164,8 +164,7 @@ fn whole_run(trajectory: &Trajectory, system: &ReducedSystem) -> Option<Summary>
         dv_dt_peak = dv_dt_peak.max(system.voltage_rate(state).abs());
         measures.v_peak = measures.v_peak.max(v.abs());
         measures.tip = (measures.tip.0.min(tip), measures.tip.1.max(tip));
-        let slopes = system.modes.iter().zip(state).map(|(mode, q)| mode.tip_slope * q);
-        measures.slope = measures.slope.max(slopes.sum::<f64>().abs());
+        measures.slope = measures.slope.max(system.tip_slope(state).abs());
     });
     let measures = measures.with_mean_square(square, system.parameters.kappa);
     Some(Summary { from: 0.0, to, measures, dv_dt_peak, v_peak_whole: measures.v_peak })

@@ -24,8 +24,10 @@ pub struct ReducedSystem {
     /// Capacitance of the circuit's equation (dimensionless): c, and c_r of [`Self::with_residual_moment`] where that
     /// counts.
     pub capacitance: f64,
-    /// Whether the modes left out count in that capacitance.
+    /// Whether the modes left out count in that capacitance and in the slope at the tip.
     pub residual_moment: bool,
+    /// What each entry of the state adds to the slope at the tip: rad, per volt the last; of length 2N + 1.
+    pub slopes: Vec<f64>,
 }
 
 impl ReducedSystem {
@@ -43,21 +45,37 @@ impl ReducedSystem {
         let modes = ModeSet::with_tip(c1, Tip::of(&parameters), modes)?;
         let theta = modes.iter().map(|mode| parameters.theta * mode.tip_slope).collect();
         let capacitance = parameters.c;
-        Ok(Self { parameters, equilibrium, modes, law, c1, theta, capacitance, residual_moment: false })
+        let mut slopes: Vec<f64> = modes.iter().map(|mode| mode.tip_slope).collect();
+        slopes.resize(state_dimension(modes.len()), 0.0);
+        Ok(Self {
+            parameters,
+            equilibrium,
+            modes,
+            law,
+            c1,
+            theta,
+            capacitance,
+            residual_moment: false,
+            slopes,
+        })
     }
 
-    /// The same system with (`on`) or without the modes left out in the circuit's equation.
+    /// The same system with (`on`) or without the modes left out in the circuit's equation and in the slope at the tip.
     ///
     /// The moment theta v at the tip bends every mode, those left out quasi-statically: mode k > N follows as
     /// q_k = -theta_k v/(eta_2k omega_k^2), which gives the current -theta_k^2/(eta_2k omega_k^2) dv/dt. Together they
     /// are a capacitance beside c, c_r = theta^2 ([`ModeSet::residual_compliance`]): (c + c_r) dv/dt + kappa v is the
-    /// current of the modes kept, and c_r v^2/2 is the energy stored in the others. Their inertia, their damping and
-    /// what they add to the tip displacement stay left out.
+    /// current of the modes kept, and c_r v^2/2 is the energy stored in the others. They turn the tip by
+    /// -theta v ([`ModeSet::residual_compliance`]). Their inertia, their damping and what they add to the tip
+    /// displacement, a sum that falls like 1/N^2, stay left out.
     #[must_use]
-    pub fn with_residual_moment(self, on: bool) -> Self {
-        let p = &self.parameters;
-        let residual = if on { p.theta * p.theta * self.modes.residual_compliance(self.c1) } else { 0.0 };
-        Self { capacitance: p.c + residual, residual_moment: on, ..self }
+    pub fn with_residual_moment(mut self, on: bool) -> Self {
+        let theta = self.parameters.theta;
+        let compliance = if on { self.modes.residual_compliance(self.c1) } else { 0.0 };
+        self.capacitance = self.parameters.c + theta * theta * compliance;
+        self.slopes[2 * self.modes.len()] = -theta * compliance;
+        self.residual_moment = on;
+        self
     }
 
     /// The same device under another excitation: everything that depends on the structure is kept.
@@ -121,6 +139,11 @@ impl ReducedSystem {
     /// Tip displacement from equilibrium s = sum of q_n, in beam lengths. `state` has length 2N + 1.
     pub fn tip_displacement(&self, state: &[f64]) -> f64 {
         state[..self.modes.len()].iter().sum()
+    }
+
+    /// Slope at the tip from equilibrium (rad, positive where the tip turns with a positive displacement).
+    pub fn tip_slope(&self, state: &[f64]) -> f64 {
+        self.slopes.iter().zip(state).map(|(slope, entry)| slope * entry).sum()
     }
 
     /// Tip velocity w = sum of dq_n/dt.
@@ -193,22 +216,45 @@ mod tests {
     #[test]
     fn a_system_at_other_numbers_is_the_one_made_from_them() -> Result<(), ModelError> {
         let set = ParameterSet { j: 1e-3, e: 0.02, air: 0.05, ..Default::default() };
-        let base = ReducedSystem::new(Parameters::new(set)?, 3, ForceLaw::Exact)?;
+        let of = |set: ParameterSet| -> Result<_, ModelError> {
+            Ok(ReducedSystem::new(Parameters::new(set)?, 3, ForceLaw::Exact)?.with_residual_moment(true))
+        };
+        let base = of(set)?;
         for parameter in crate::model::Parameter::ALL {
             let mut set = *base.parameters;
             *set.get_mut(parameter) *= 1.1;
-            let (changed, made) =
-                (base.with_numbers(set)?, ReducedSystem::new(Parameters::new(set)?, 3, base.law)?);
+            let (changed, made) = (base.with_numbers(set)?, of(set)?);
             assert_eq!(changed.parameters, made.parameters);
             assert_eq!(
                 (changed.c1, changed.equilibrium.gap),
                 (made.c1, made.equilibrium.gap),
                 "{parameter:?}"
             );
-            assert_eq!(changed.theta, made.theta, "{parameter:?}");
+            assert_eq!((&changed.theta, &changed.slopes), (&made.theta, &made.slopes), "{parameter:?}");
             assert_eq!(changed.jacobian(0.3), made.jacobian(0.3), "{parameter:?}");
         }
         Ok(())
+    }
+
+    #[test]
+    fn a_moment_at_the_tip_at_rest_turns_it_like_the_whole_beam_whatever_the_number_of_modes() {
+        // Without magnets a moment M turns the end of a cantilever by M L/(EI); a voltage acts as the moment -theta v.
+        let set = ParameterSet { c0: 0.0, theta: 2e-3, ..Default::default() };
+        for modes in [1, 2, 5] {
+            let parameters = Parameters::new(set).expect("in range");
+            let system = ReducedSystem::new(parameters, modes, ForceLaw::Quadratic).expect("a device");
+            let bent = |system: &ReducedSystem| {
+                let mut state = vec![0.0; system.dimension()];
+                for (k, mode) in system.modes.iter().enumerate() {
+                    state[k] = -3.0 * system.theta[k] / (mode.eta2 * mode.omega * mode.omega);
+                }
+                state[2 * modes] = 3.0;
+                system.tip_slope(&state)
+            };
+            assert!(bent(&system) > -0.99 * 3.0 * 2e-3);
+            let whole = bent(&system.with_residual_moment(true));
+            assert!((whole / (-3.0 * 2e-3) - 1.0).abs() < 1e-12, "{modes}: {whole}");
+        }
     }
 
     #[test]

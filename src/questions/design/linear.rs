@@ -54,8 +54,9 @@ pub fn linear_balance(system: &ReducedSystem) -> Result<Balance, DesignError> {
 
 /// Amplitude of the slope at the tip (rad).
 fn slope(system: &ReducedSystem, response: &LinearResponse) -> f64 {
-    let slopes = system.modes.iter().zip(response.displacements.iter()).map(|(mode, q)| q * mode.tip_slope);
-    slopes.sum::<nalgebra::Complex<f64>>().norm()
+    let quarter = 0.25 * system.parameters.period();
+    let [start, later] = [0.0, quarter].map(|t| system.tip_slope(&response.state(t)));
+    start.hypot(later)
 }
 
 /// The power of the linear device over frequency.

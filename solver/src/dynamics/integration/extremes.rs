@@ -150,8 +150,8 @@ impl Highest {
         let (value, slope) = match self.scalar {
             Scalar::Tip => (state[..n].iter().sum(), state[n..2 * n].iter().sum()),
             Scalar::TipSlope => {
-                let along = |part_of: &[f64]| part.tip_slopes.iter().zip(part_of).map(|(a, b)| a * b).sum();
-                (along(&state[..n]), along(&state[n..2 * n]))
+                let along = |entries: &[f64]| part.slopes.iter().zip(entries).map(|(a, b)| a * b).sum();
+                (along(&state), along(&rate))
             }
             Scalar::Voltage => (state[2 * n], rate[2 * n]),
             Scalar::VoltageRate => {

@@ -22,8 +22,8 @@ pub struct LinearPart {
     drive: Vec<f64>,
     generator: Generator,
     theta: Vec<f64>,
-    /// phi_k'(1), the slopes of the modes at the tip.
-    pub(super) tip_slopes: Vec<f64>,
+    /// See [`ReducedSystem::slopes`].
+    pub(super) slopes: Vec<f64>,
     mutual_damping: f64,
     inverse_capacitance: f64,
     kappa: f64,
@@ -80,7 +80,7 @@ impl LinearPart {
             generator,
             inverse_mass,
             theta: system.theta.clone(),
-            tip_slopes: modes.iter().map(|mode| mode.tip_slope).collect(),
+            slopes: system.slopes.clone(),
             mutual_damping: p.alpha * system.c1,
             inverse_capacitance: 1.0 / system.capacitance,
             kappa: p.kappa,
@@ -194,7 +194,7 @@ pub(super) mod tests {
             inverse_mass: vec![3.5, 3.25],
             drive: vec![1.5, -0.75],
             theta: vec![0.0125, 0.046875],
-            tip_slopes: vec![1.4, 4.8],
+            slopes: vec![1.4, 4.8, 0.0, 0.0, -3e-4],
             mutual_damping: 0.00125,
             inverse_capacitance: 1e9,
             kappa: 0.01,

@@ -421,8 +421,7 @@ impl Watch<'_> {
 /// Takes the extremes of one instant.
 fn see(system: &ReducedSystem, state: &[f64], totals: &mut RectifiedTotals) {
     let n = system.modes.len();
-    let tip = system.tip_displacement(state);
-    let slope: f64 = system.modes.iter().zip(state).map(|(mode, q)| mode.tip_slope * q).sum();
+    let (tip, slope) = (system.tip_displacement(state), system.tip_slope(state));
     totals.v_peak = totals.v_peak.max(state[2 * n].abs());
     totals.tip = (totals.tip.0.min(tip), totals.tip.1.max(tip));
     totals.slope = totals.slope.max(slope.abs());

@@ -71,7 +71,7 @@ impl StepTables {
         let mut rows = vec![vec![0.0; extended]; 4];
         rows[0][..n].fill(1.0);
         rows[1][2 * n] = 1.0;
-        rows[3][..n].copy_from_slice(&part.tip_slopes);
+        rows[3][..dimension].copy_from_slice(&part.slopes);
         let (voltage, rate) = rows.split_at_mut(2);
         part.apply_transposed(&voltage[1], &mut rate[0]);
         let maps = [&mut tables.tip, &mut tables.voltage, &mut tables.voltage_rate, &mut tables.tip_slope];

@@ -84,14 +84,15 @@ pub(in crate::app::panels) fn controls(context: &mut Context<'_>, ui: &mut Ui, f
         let value = significant(fact.shown.1 * fitted.value, DIGITS);
         let name = tr(fact.title);
         let text = match fitted.standard_error {
-            Some(error) => {
+            // An error as large as the value says no more than no error.
+            Some(error) if error < fitted.value => {
                 let error = significant(fact.shown.1 * error, DIGITS_OF_ERROR);
                 fill(
                     "{name}: {value} ± {error} {unit}",
                     &[("name", &name), ("value", &value), ("error", &error), ("unit", &unit)],
                 )
             }
-            None => fill(
+            _ => fill(
                 "{name}: {value} {unit}, of which the data tell too little",
                 &[("name", &name), ("value", &value), ("unit", &unit)],
             ),
