@@ -22,10 +22,11 @@ pub(super) fn ask(
     let designs = embed.is_none() && view.tab == Tab::Design;
     if designs {
         design::ask(studies, view);
-    } else if view.scenario.model.modes > 1 {
-        studies
-            .lanes
-            .offer(questions::tongues(view), |(scenario, window)| Some(TongueStudy::new(scenario, window)));
+    } else if let Some(boundaries) = &session.boundaries
+        && view.scenario.model.modes > 1
+    {
+        let asked = questions::tongues(view, boundaries);
+        studies.lanes.offer(asked, |(scenario, window)| Some(TongueStudy::new(scenario, window)));
     }
     // The goals of a lesson are checked by the verdict, on whatever tab.
     if !designs || view.lesson.is_some() {

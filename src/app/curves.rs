@@ -20,7 +20,9 @@ const TRANSIENT_PERIODS: f64 = 20.0;
 const CLOSE_PERIODS: f64 = 6.0;
 /// Dots that stand for the theory on one period.
 const THEORY_DOTS: usize = 48;
-/// The same in the close view, where six periods share the width.
+/// The theory is drawn up to this times the motion.
+const THEORY_SIGHT: f64 = 4.0;
+/// The dots of a period in the close view, where six periods share the width.
 const CLOSE_DOTS: usize = 14;
 /// Samples of a run that ended early.
 const EARLY_SAMPLES: usize = 3000;
@@ -45,6 +47,8 @@ pub(super) struct Curves {
     pub theory_phase: Vec<PlotPoint>,
     pub theory_close: Vec<PlotPoint>,
     pub theory_strobe: Option<PlotPoint>,
+    /// Amplitude (V) of that theory where it is left out: so large that the motion would not be seen beside it.
+    pub theory_beyond: Option<f64>,
     /// Times, lowest and highest voltage of the envelope.
     pub envelope: [Vec<f64>; 3],
     /// Largest |v| and |dv/dt| of the drawn motion.
@@ -148,6 +152,10 @@ impl Curves {
         let Ok(theory) = SteadyState::new(&run.system) else { return };
         let period = run.system.parameters.period();
         let voltage = theory.voltage;
+        if voltage.amplitude > THEORY_SIGHT * self.extent[0] {
+            self.theory_beyond = Some(voltage.amplitude);
+            return;
+        }
         let place = |time: f64| PlotPoint::new(voltage.value(time), voltage.rate(time));
         let times = |from: f64, count: usize, dots: usize| {
             (0..count).map(move |i| from + period * i as f64 / dots as f64)
@@ -210,5 +218,25 @@ mod tests {
             assert!(curves.extent[0] < 400.0, "{omega} {beta}: {:?}", curves.extent);
             assert!(highest <= 1.01 * curves.extent[0] && strobe <= curves.extent[0], "{highest} {strobe}");
         }
+    }
+
+    #[test]
+    fn a_theory_far_outside_the_motion_does_not_set_the_axes() {
+        // Near omega_1 the damping that the first-order theory leaves out decides.
+        let run = |alpha: f64| {
+            let stored = format!(
+                r#"{{"scenario":{{"parameters":{{"c0":0,"omega":3.3,"beta":1e-4,"alpha":{alpha}}},"model":{{"force":"exact"}}}}}}"#
+            );
+            let mut desk = Desk::new(1000.0, 700.0, &stored);
+            desk.work(4);
+            desk.app.session.shown.as_ref().expect("a run").curves.clone()
+        };
+        let heavy = run(0.1);
+        let volts = heavy.theory_beyond.expect("it is far outside");
+        assert!(
+            volts > 4.0 * heavy.extent[0] && heavy.theory_phase.is_empty() && heavy.theory_strobe.is_none()
+        );
+        let light = run(1e-3);
+        assert!(light.theory_beyond.is_none() && !light.theory_phase.is_empty(), "{:?}", light.extent);
     }
 }

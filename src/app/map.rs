@@ -21,19 +21,15 @@ const POINTS: usize = 241;
 
 /// Upper ends that the excitation axis may have.
 const CEILINGS: [f64; 7] = [0.003, 0.0075, 0.015, 0.04, 0.08, 0.15, 0.2];
-/// The lowest ceiling of each window, at which its tongue is seen.
+/// The lowest ceiling of each window.
 const fn least_ceiling(window: MapWindow) -> f64 {
     match window {
         MapWindow::First | MapWindow::Sum => 0.015,
         MapWindow::All | MapWindow::Second => 0.04,
     }
 }
-
-/// The upper end of the excitation axis in a window that shows `beta`.
-pub(super) fn ceiling(window: MapWindow, beta: f64) -> f64 {
-    let wanted = (1.15 * beta).max(least_ceiling(window));
-    CEILINGS.into_iter().find(|ceiling| *ceiling >= wanted).unwrap_or(0.2)
-}
+/// How far above the tip of a tongue a map reaches at least, so that its shape is seen: over the tip's excitation.
+const ABOVE_THE_TIP: f64 = 1.5;
 
 /// What the boundaries depend on: the device of `scenario` without its excitation.
 pub(super) fn structure(scenario: &Scenario) -> Scenario {
@@ -127,6 +123,16 @@ impl Boundaries {
         }
     }
 
+    /// The upper end of the excitation axis in a window that shows `beta`, and the window's tongue: the lowest of all.
+    pub(super) fn ceiling(&self, window: MapWindow, beta: f64) -> f64 {
+        let shown =
+            |tongue: &&Tongue| window.resonance().is_none_or(|resonance| resonance == tongue.resonance);
+        let tip = self.tongues.iter().filter(shown).filter_map(Tongue::tip).fold(f64::INFINITY, f64::min);
+        let tip = if tip.is_finite() { ABOVE_THE_TIP * tip } else { 0.0 };
+        let wanted = tip.max(1.15 * beta).max(least_ceiling(window));
+        CEILINGS.into_iter().find(|ceiling| *ceiling >= wanted).unwrap_or(CEILINGS[CEILINGS.len() - 1])
+    }
+
     /// The window that shows `omega`, given the one open now.
     pub(super) fn follow(&self, open: MapWindow, omega: f64) -> MapWindow {
         let (low, high) = self.range(open);
@@ -141,6 +147,15 @@ impl Boundaries {
 }
 
 impl Tongue {
+    /// The lowest excitation of its boundary near its resonance: the coupled one where there is one.
+    fn tip(&self) -> Option<f64> {
+        let near = |point: &&PlotPoint| (point.x - self.published_frequency).abs() <= HALF_WIDTH;
+        let lowest = |curve: &[PlotPoint]| {
+            curve.iter().filter(near).map(|point| point.y).filter(|beta| beta.is_finite()).reduce(f64::min)
+        };
+        lowest(&self.coupled).or_else(|| lowest(&self.published))
+    }
+
     /// The same with its boundaries followed until they leave every map at the top, so that none ends in the middle of
     /// one.
     fn followed(mut self, published: &Published, coupled: Option<&CoupledModes>) -> Self {
@@ -174,5 +189,37 @@ impl Tongue {
                 frequencies().map(|omega| place(omega, coupled.boundary(resonance, omega))).collect()
             }),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn boundaries(set: ParameterSet) -> Boundaries {
+        let scenario = Scenario { parameters: set, ..Scenario::default() };
+        let (system, _) = scenario.validate().expect("in range");
+        Boundaries::new(structure(&scenario), &system)
+    }
+
+    #[test]
+    fn every_map_reaches_well_above_the_tip_of_its_tongue() {
+        for alpha in [1e-4, 1e-3, 3e-3] {
+            let boundaries = boundaries(ParameterSet { alpha, ..Default::default() });
+            for resonance in Resonance::ALL {
+                let tongue = boundaries.tongue(resonance).expect("two modes");
+                let lowest = tongue.coupled.iter().map(|point| point.y).fold(f64::INFINITY, f64::min);
+                let ceiling = boundaries.ceiling(MapWindow::about(resonance), 1e-3);
+                assert!(ceiling >= (1.4 * lowest).min(0.2), "{alpha} {resonance:?}: {lowest} of {ceiling}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_map_without_tongues_has_a_ceiling_too() {
+        let boundaries = boundaries(ParameterSet { c0: 0.0, ..Default::default() });
+        assert!(boundaries.gap.is_none() && boundaries.tongues.iter().all(|tongue| tongue.tip().is_none()));
+        assert_eq!(boundaries.ceiling(MapWindow::First, 0.001), 0.015);
+        assert!(boundaries.ceiling(MapWindow::All, 0.1) > 0.1);
     }
 }

@@ -36,7 +36,8 @@ pub(super) fn chart(view: &View, boundaries: &Boundaries) -> (Scenario, Chart) {
     let multipliers = quantity == Quantity::Multiplier;
     let (columns, rows) = if multipliers { CHART } else { MOTIONS };
     let omega = Span { from: low, to: high, count: columns };
-    let beta = Span { from: 0.0, to: map::ceiling(view.map, view.scenario.parameters.beta), count: rows };
+    let beta =
+        Span { from: 0.0, to: boundaries.ceiling(view.map, view.scenario.parameters.beta), count: rows };
     let excitation = [Forgotten::Number(Parameter::Omega, low), Forgotten::Number(Parameter::Beta, 0.0)];
     let scenario = view.scenario.forgetting(&excitation).forgetting(&[Forgotten::Duration]);
     let scenario = if multipliers { scenario.forgetting(&[Forgotten::Start]) } else { scenario };
@@ -44,8 +45,8 @@ pub(super) fn chart(view: &View, boundaries: &Boundaries) -> (Scenario, Chart) {
 }
 
 /// The exact tongues of the device in view, whatever its excitation and start.
-pub(super) fn tongues(view: &View) -> (Scenario, Window) {
-    let ceiling = map::ceiling(view.map, view.scenario.parameters.beta);
+pub(super) fn tongues(view: &View, boundaries: &Boundaries) -> (Scenario, Window) {
+    let ceiling = boundaries.ceiling(view.map, view.scenario.parameters.beta);
     let limit = TONGUE_LIMITS.into_iter().find(|limit| *limit >= ceiling).unwrap_or(TONGUE_LIMITS[1]);
     let span = if view.map == MapWindow::All { WHOLE_TONGUE_SPAN } else { TONGUE_SPAN };
     (map::structure(&view.scenario), Window { span, limit })
@@ -105,7 +106,7 @@ fn range_of(view: &View, session: &Session, parameter: Parameter) -> (f64, f64) 
             let (low, high) = boundaries.range(view.map);
             (low.max(0.1 * high), high)
         }
-        (Parameter::Beta, _) => (0.0, map::ceiling(view.map, value)),
+        (Parameter::Beta, Some(boundaries)) => (0.0, boundaries.ceiling(view.map, value)),
         _ if value == 0.0 => (minimum, 0.1 * maximum),
         _ => {
             let middle = value.signum() * 2.0_f64.powf(value.abs().log2().round());

@@ -71,9 +71,12 @@ pub(super) fn picture(context: &Context<'_>, ui: &mut Ui, height: f32, labelled:
         .filter(|shape| !shape.is_empty() && within(shape))
         .collect();
     let base = p.beta * (p.omega * time).sin();
-    let mut beam = BeamView::new(&shape, -gap).base(base).extremes(&extremes);
-    if p.c0 != 0.0 && run.outcome() == Outcome::Completed {
-        beam = beam.gap(open);
+    let mut beam = BeamView::new(&shape).base(base).extremes(&extremes);
+    if p.c0 != 0.0 {
+        beam = beam.magnet(-gap, p.c0 < 0.0);
+        if run.outcome() == Outcome::Completed {
+            beam = beam.gap(open);
+        }
     }
     if labelled {
         let found = context.studies.inspection(&shown.scenario).filter(|(_, current)| *current);

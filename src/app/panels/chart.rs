@@ -8,7 +8,7 @@ use super::design::safety::Safety;
 use super::spec::{Asking, Place, Spec};
 use super::stability_map::{self, drag_point};
 use crate::app::command::Command;
-use crate::app::map::{Boundaries, ceiling};
+use crate::app::map::Boundaries;
 use crate::app::questions;
 use crate::app::text::{marked, say, tr};
 use crate::app::theme::{self, Tokens};
@@ -243,7 +243,7 @@ fn plot(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let p = context.view.scenario.parameters;
     let window = context.view.map;
     let (low, high) = boundaries.range(window);
-    let ceiling = ceiling(window, p.beta);
+    let ceiling = boundaries.ceiling(window, p.beta);
     let picture = picture(context, ui, context.view.layer);
     let (x, y) = (Axis::new(tr("excitation frequency"), "ω"), Axis::new(tr("excitation amplitude"), "β"));
     let (exact, current) = stability_map::exact_borders(context, boundaries);

@@ -51,9 +51,9 @@ fn picture(context: &mut Context<'_>, ui: &mut Ui) {
     // Where the base is cannot be told from its acceleration: it is drawn at rest.
     let swings = context.live.shaken().is_none();
     let base = if swings { p.beta * (TAU * now.turns.fract()).sin() } else { 0.0 };
-    let mut beam = BeamView::new(&shape, -gap).base(base).extremes(&extremes);
+    let mut beam = BeamView::new(&shape).base(base).extremes(&extremes);
     if p.c0 != 0.0 {
-        beam = beam.gap((gap + now.values[2]) / gap);
+        beam = beam.magnet(-gap, p.c0 < 0.0).gap((gap + now.values[2]) / gap);
     }
     let height = ui.available_height();
     beam.show(ui, height);

@@ -6,7 +6,7 @@ use super::spec::{Place, Spec};
 use super::{Context, phase_plane};
 use crate::app::text::{marked, tr};
 use crate::app::view::Tab;
-use crate::app::widgets::{Series, legend, plot_style};
+use crate::app::widgets::{Series, plot_style};
 use crate::model::state_dimension;
 
 /// The portrait.
@@ -17,14 +17,12 @@ pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Explore), |_| tr("Phase
 fn portrait(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(shown) = context.shown() else { return };
     let curves = &shown.curves;
-    legend::legend(
-        ui,
-        &[
-            (Series::Numeric, tr("computed")),
-            (Series::Ghost, tr("start")),
-            (Series::Theory, tr("first-order theory")),
-        ],
-    );
+    let entries = [
+        (Series::Numeric, tr("computed")),
+        (Series::Ghost, tr("start")),
+        (Series::Theory, tr("first-order theory")),
+    ];
+    phase_plane::legend(ui, &entries, curves);
     let response = phase_plane::plot_around(ui, "phase portrait", curves.extent).show(ui, |plot| {
         if let Some(pinned) = &context.session.pinned {
             plot_style::series(plot, Series::Ghost, tr("pinned"), &pinned.curves.phase);

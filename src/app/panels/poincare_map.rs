@@ -6,7 +6,7 @@ use super::spec::{Place, Spec};
 use super::{Context, phase_plane};
 use crate::app::text::{fill, marked, tr};
 use crate::app::view::Tab;
-use crate::app::widgets::{Series, legend, plot_style};
+use crate::app::widgets::{Series, plot_style};
 
 /// The map.
 pub(super) const PANEL: Spec = Spec::new(Place::Tab(Tab::Explore), |_| tr("Poincaré map"), map)
@@ -23,10 +23,8 @@ fn hint(context: &Context<'_>) -> String {
 fn map(context: &mut Context<'_>, ui: &mut Ui) {
     let Some(shown) = context.shown() else { return };
     let curves = &shown.curves;
-    legend::legend(
-        ui,
-        &[(Series::Poincare, tr("last quarter")), (Series::TheoryPoint, tr("first-order theory"))],
-    );
+    let entries = [(Series::Poincare, tr("last quarter")), (Series::TheoryPoint, tr("first-order theory"))];
+    phase_plane::legend(ui, &entries, curves);
     phase_plane::plot_around(ui, "poincare map", curves.extent).show(ui, |plot| {
         if let Some(pinned) = &context.session.pinned {
             plot_style::points(plot, Series::Ghost, tr("pinned"), &pinned.curves.strobe);

@@ -6,7 +6,7 @@ use egui_plot::{PlotBounds, PlotPoint, PlotResponse};
 use super::Context;
 use super::spec::{Place, Spec};
 use crate::app::command::Command;
-use crate::app::map::{Boundaries, ceiling};
+use crate::app::map::{Boundaries, HALF_WIDTH, Tongue};
 use crate::app::text::{marked, tr};
 use crate::app::view::{MapWindow, Tab, View};
 use crate::app::widgets::plot_style::{self, Axis};
@@ -15,6 +15,8 @@ use crate::model::Parameter;
 use crate::questions::tongues::Traced;
 use crate::theory::Resonance;
 
+/// Room that a region's name keeps from its border, points.
+const MARGIN: f64 = 8.0;
 /// Room that the legend needs to stand beside the choice.
 const LEGEND: f32 = 300.0;
 
@@ -84,7 +86,7 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
     let p = context.view.scenario.parameters;
     let window = context.view.map;
     let (low, high) = boundaries.range(window);
-    let ceiling = ceiling(window, p.beta);
+    let ceiling = boundaries.ceiling(window, p.beta);
     let (x, y) = (Axis::new(tr("excitation frequency"), "ω"), Axis::new(tr("excitation amplitude"), "β"));
     let plot = plot_style::fixed(ui, ("stability map", window), &x, &y);
     let pinned = context.session.pinned.as_ref().map(|pinned| {
@@ -113,6 +115,15 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         label_regions(plot, boundaries, window, ceiling, region);
         plot_style::points(plot, Series::Ghost, tr("pinned"), pinned.as_slice());
     });
+    let seen =
+        |curve: &[PlotPoint]| curve.iter().any(|point| (low..=high).contains(&point.x) && point.y <= ceiling);
+    let theories = |tongue: &Tongue| seen(&tongue.published) || seen(&tongue.coupled);
+    if boundaries.gap.is_none() {
+        let text = tr("Without magnets the device is linear: it follows the shaking everywhere.");
+        plot_style::no_data(ui, shown.response.rect, text);
+    } else if !exact.iter().any(|border| seen(border)) && !boundaries.tongues.iter().any(theories) {
+        plot_style::no_data(ui, shown.response.rect, tr("No boundary is this low here."));
+    }
     drag_point(context, ui, &shown, (low, high), ceiling);
 }
 
@@ -148,7 +159,7 @@ pub(super) fn exact_borders(context: &Context<'_>, boundaries: &Boundaries) -> (
     (borders, found.is_some_and(|(_, current)| current))
 }
 
-/// Names of the regions where there is room for them.
+/// Names of the regions where there is room for them: in the region, or to its right where it is narrower than its name.
 fn label_regions(
     plot: &mut egui_plot::PlotUi<'_>,
     boundaries: &Boundaries,
@@ -167,7 +178,16 @@ fn label_regions(
         let Some(tip) = lowest.filter(|tip| tip.y < 0.8 * ceiling) else { continue };
         if window == MapWindow::All || window.resonance() == Some(tongue.resonance) {
             let height = tip.y + 0.82 * (ceiling - tip.y);
-            let (name, place) = (name(tongue.resonance), [tip.x, height]);
+            let name = name(tongue.resonance);
+            let inside = |point: &&PlotPoint| (point.x - tip.x).abs() <= HALF_WIDTH && point.y <= height;
+            let within = tongue.coupled.iter().filter(inside).map(|point| point.x);
+            let (left, right) =
+                within.fold((tip.x, tip.x), |(left, right), x: f64| (left.min(x), right.max(x)));
+            let per_point = plot.transform().dvalue_dpos()[0];
+            let width = per_point * f64::from(plot_style::label_size(plot, name).x);
+            let fits = right - left > width + MARGIN * per_point;
+            let x = if fits { tip.x } else { right + 0.5 * width + MARGIN * per_point };
+            let place = [x, height];
             if plot_style::has_room(plot, name, place, &mut taken) {
                 plot_style::labelled_place(plot, name, place, kind);
             }

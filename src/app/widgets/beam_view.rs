@@ -23,12 +23,13 @@ const NOTE: f32 = 24.0;
 /// ```
 /// # use harvester_lab::app::widgets::BeamView;
 /// # fn draw(ui: &mut egui::Ui, shape: &[[f64; 2]]) {
-/// BeamView::new(shape, -0.15).base(0.002).gap(0.49).show(ui, 180.0);
+/// BeamView::new(shape).magnet(-0.15, false).base(0.002).gap(0.49).show(ui, 180.0);
 /// # }
 /// ```
 pub struct BeamView<'a> {
     shape: &'a [[f64; 2]],
-    fixed_magnet: f64,
+    /// Height of the fixed magnet's near face, and whether it attracts.
+    magnet: Option<(f64, bool)>,
     base: f64,
     gap: Option<f64>,
     extremes: &'a [&'a [[f64; 2]]],
@@ -38,10 +39,16 @@ pub struct BeamView<'a> {
 }
 
 impl<'a> BeamView<'a> {
-    /// The beam through the points `(x, z)` from the clamp to the tip, relative to the clamp, and the height of the
-    /// fixed magnet's near face above the undeflected beam (negative: below it).
-    pub fn new(shape: &'a [[f64; 2]], fixed_magnet: f64) -> Self {
-        Self { shape, fixed_magnet, base: 0.0, gap: None, extremes: &[], magnification: None, labels: None }
+    /// The beam through the points `(x, z)` from the clamp to the tip, relative to the clamp; without magnets.
+    pub fn new(shape: &'a [[f64; 2]]) -> Self {
+        Self { shape, magnet: None, base: 0.0, gap: None, extremes: &[], magnification: None, labels: None }
+    }
+
+    /// A magnet at the tip and a fixed one, whose near face is so high above the undeflected beam (negative: below it).
+    /// One that is further away than the picture is high is not seen.
+    pub fn magnet(mut self, face: f64, attracts: bool) -> Self {
+        self.magnet = Some((face, attracts));
+        self
     }
 
     /// How far the clamp is displaced now.
@@ -127,15 +134,21 @@ impl<'a> BeamView<'a> {
         painter.add(Shape::line(beam, Stroke::new(3.5, tokens.numeric)));
 
         let side = view.magnet;
-        let facing = if self.fixed_magnet < 0.0 { 1.0 } else { -1.0 };
-        let fixed_face = view.at(1.0, self.fixed_magnet + base);
         let moving = Rect::from_center_size(tip, vec2(side, side));
-        let fixed = Rect::from_center_size(fixed_face + vec2(0.0, 0.5 * side * facing), vec2(side, side));
-        // The sides that face each other are the like poles: that is why they repel.
-        magnet(&painter, moving, tokens.theory, tokens.exact, facing);
-        magnet(&painter, fixed, tokens.theory, tokens.exact, -facing);
-        let moving_face = tip + vec2(0.0, 0.5 * side * facing);
-        self.gap_arrow(&painter, ui, tip.x + 0.5 * side + 9.0, moving_face.y, fixed_face.y, rect);
+        let fixed = self.magnet.map(|(face, attracts)| {
+            let facing = if face < 0.0 { 1.0 } else { -1.0 };
+            let fixed_face = view.at(1.0, face + base);
+            let fixed = Rect::from_center_size(fixed_face + vec2(0.0, 0.5 * side * facing), vec2(side, side));
+            // Like poles repel: of magnets that do, the same sides face each other.
+            magnet(&painter, moving, tokens.theory, tokens.exact, facing);
+            magnet(&painter, fixed, tokens.theory, tokens.exact, if attracts { facing } else { -facing });
+            let moving_face = tip + vec2(0.0, 0.5 * side * facing);
+            self.gap_arrow(&painter, ui, tip.x + 0.5 * side + 9.0, moving_face.y, fixed_face.y, rect);
+            (fixed, attracts)
+        });
+        if fixed.is_none() {
+            painter.rect_filled(moving, CornerRadius::same(2), tokens.text_weak);
+        }
         let note = if view.magnification > 1.0 {
             fill(
                 "heights × {factor}",
@@ -166,7 +179,7 @@ impl<'a> BeamView<'a> {
         painter: &Painter,
         tokens: &theme::Tokens,
         volts: Option<f64>,
-        (wall, beam, fixed): (Rect, Pos2, Rect),
+        (wall, beam, fixed): (Rect, Pos2, Option<(Rect, bool)>),
     ) {
         let font = fonts::regular(theme::size::BODY);
         let line = Stroke::new(1.0, tokens.ruler);
@@ -202,7 +215,10 @@ impl<'a> BeamView<'a> {
         }
         painter.rect(load, CornerRadius::same(2), tokens.inset, line, StrokeKind::Middle);
         // The magnets, beside the fixed one.
-        name(fixed.left_center() - vec2(8.0, 0.0), Align2::RIGHT_CENTER, tr("magnets, which repel"));
+        if let Some((fixed, attracts)) = fixed.filter(|(fixed, _)| rect.intersects(*fixed)) {
+            let text = if attracts { tr("magnets, which attract") } else { tr("magnets, which repel") };
+            name(fixed.left_center() - vec2(8.0, 0.0), Align2::RIGHT_CENTER, text);
+        }
         let text = volts.map_or(tr("load").to_owned(), |volts| {
             fill("load: {volts} V", &[("volts", &number::significant(volts, 3))])
         });
@@ -253,9 +269,11 @@ impl View {
         let magnet = (MAGNET * scale).clamp(8.0, 16.0) as f32;
         let heights =
             beam.extremes.iter().flat_map(|shape| shape.iter()).chain(beam.shape).map(|p| p[1] + beam.base);
-        let heights = heights.filter(|z| z.is_finite()).chain([0.0, beam.fixed_magnet + beam.base]);
-        let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), z| (low.min(z), high.max(z)));
+        let reach = |(low, high): (f64, f64), z: f64| (low.min(z), high.max(z));
+        let of_beam = heights.filter(|z| z.is_finite()).fold((0.0, 0.0), reach);
         let room = USED_HEIGHT * f64::from(rect.height()) - 2.0 * f64::from(magnet);
+        let with_magnet = beam.magnet.map(|(face, _)| reach(of_beam, face + beam.base));
+        let (low, high) = with_magnet.filter(|(low, high)| (high - low) * scale <= room).unwrap_or(of_beam);
         let fits = |factor: &&f64| (high - low) * scale * **factor <= room;
         let largest = MAGNIFICATIONS.iter().rev().find(fits).copied();
         let magnification = beam.magnification.or(largest).unwrap_or(1.0);
@@ -290,14 +308,27 @@ mod tests {
             (0..=20).map(|i| [f64::from(i) / 20.0, 1e-3 * f64::from(i * i) / 400.0]).collect();
         let rect = Rect::from_min_size(Pos2::ZERO, vec2(280.0, 200.0));
         for fixed in [-0.15, -0.004, 0.15] {
-            let view = View::fit(rect, &BeamView::new(&shape, fixed));
+            let view = View::fit(rect, &BeamView::new(&shape).magnet(fixed, false));
             assert!(view.magnification >= 1.0);
             for [x, z] in shape.iter().copied().chain([[1.0, fixed]]) {
                 assert!(rect.contains(view.at(x, z)), "{fixed}: {x}, {z}");
             }
         }
-        let strong = View::fit(rect, &BeamView::new(&shape, -0.004));
+        let strong = View::fit(rect, &BeamView::new(&shape).magnet(-0.004, false));
         assert!(strong.magnification > 5.0);
+    }
+
+    #[test]
+    fn the_beam_stays_in_sight_however_far_away_the_magnet_is() {
+        let shape = [[0.0, 0.0], [0.5, 0.001], [1.0, 0.004]];
+        let rect = Rect::from_min_size(Pos2::ZERO, vec2(280.0, 200.0));
+        let alone = View::fit(rect, &BeamView::new(&shape));
+        let far = View::fit(rect, &BeamView::new(&shape).magnet(-6.66, true));
+        for view in [&alone, &far] {
+            assert!(shape.iter().all(|[x, z]| rect.contains(view.at(*x, *z))));
+            assert!(view.magnification > 5.0);
+        }
+        assert!(!rect.contains(far.at(1.0, -6.66)));
     }
 
     #[test]
@@ -305,7 +336,9 @@ mod tests {
         let mut harness = Harness::new(300.0, 260.0);
         let shape = [[0.0, 0.0], [0.5, f64::NAN], [1.0, 0.05]];
         harness.settle(|ui| {
-            BeamView::new(&shape, -0.15).gap(0.49).extremes(&[&shape]).magnification(1.0).show(ui, 200.0);
+            let extremes: [&[[f64; 2]]; 1] = [&shape];
+            let beam = BeamView::new(&shape).magnet(-0.15, false).gap(0.49).extremes(&extremes);
+            beam.magnification(1.0).show(ui, 200.0);
         });
         harness.find(egui::Role::Image, "The beam in motion, gap 49 % open");
     }

@@ -1,6 +1,6 @@
 //! Legends: a sample of each kind of curve, with its name.
 
-use egui::{Color32, Response, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Color32, Response, RichText, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::explanation::explained;
 use super::recorder;
@@ -84,10 +84,19 @@ fn paint_mark(ui: &Ui, at: egui::Pos2, pen: Pen, colour: Color32) {
 
 /// A row of samples.
 pub fn legend(ui: &mut Ui, entries: &[(Series, &str)]) {
+    legend_with(ui, entries, None);
+}
+
+/// The same with words about the last of them.
+pub fn legend_with(ui: &mut Ui, entries: &[(Series, &str)], note: Option<&str>) {
     row(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(if row::is_low(ui.ctx()) { 4.0 } else { 10.0 }, 0.0);
         for (series, label) in entries {
             legend_entry(ui, *series, label);
+        }
+        if let Some(note) = note {
+            let font = fonts::regular(theme::size::SMALL);
+            ui.label(RichText::new(note).font(font).color(theme::tokens(ui).text_weak));
         }
     });
 }

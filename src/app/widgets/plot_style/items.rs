@@ -210,16 +210,20 @@ pub fn cell(plot: &mut PlotUi<'_>, from: [f64; 2], to: [f64; 2], fill: egui::Col
 
 /// Whether a small text about `place` has room within the frame and beside those that have `taken` theirs; it takes its own.
 pub fn has_room(plot: &PlotUi<'_>, text: &str, place: [f64; 2], taken: &mut Vec<egui::Rect>) -> bool {
-    let font = fonts::regular(theme::size::SMALL + 0.5);
-    let layout = |fonts: &mut egui::epaint::text::FontsView<'_>| {
-        fonts.layout_no_wrap(text.to_owned(), font, egui::Color32::WHITE).size()
-    };
-    let size = plot.ctx().fonts_mut(layout);
-    let rect = egui::Rect::from_center_size(plot.screen_from_plot(place.into()), size);
+    let rect = egui::Rect::from_center_size(plot.screen_from_plot(place.into()), label_size(plot, text));
     let free =
         plot.transform().frame().contains_rect(rect) && !taken.iter().any(|other| other.intersects(rect));
     taken.extend(free.then_some(rect));
     free
+}
+
+/// How large a label with this text is, points.
+pub fn label_size(plot: &PlotUi<'_>, text: &str) -> egui::Vec2 {
+    let font = fonts::regular(theme::size::SMALL + 0.5);
+    let layout = |fonts: &mut egui::epaint::text::FontsView<'_>| {
+        fonts.layout_no_wrap(text.to_owned(), font, egui::Color32::WHITE).size()
+    };
+    plot.ctx().fonts_mut(layout)
 }
 
 /// A small text in the plot, in the colour of what it names.

@@ -15,8 +15,8 @@ use crate::app::{fonts, theme};
 
 pub use crate::export::axis::{Axis, Tick, from_log, to_log};
 pub use items::{
-    area_above, cell, curve, envelope, faded_points, finite_runs, has_room, label, labelled_place, points,
-    rule, series, series_on_picture, special_point, special_points,
+    area_above, cell, curve, envelope, faded_points, finite_runs, has_room, label, label_size,
+    labelled_place, points, rule, series, series_on_picture, special_point, special_points,
 };
 pub use marker::{PointDrag, no_data, operating_point};
 
