@@ -104,7 +104,10 @@ fn range_of(view: &View, session: &Session, parameter: Parameter) -> (f64, f64) 
     match (parameter, &session.boundaries) {
         (Parameter::Omega, Some(boundaries)) => {
             let (low, high) = boundaries.range(view.map);
-            (low.max(0.1 * high), high)
+            let least = 0.1 * high;
+            // A device that works below is in sight, too, with as much room beneath it.
+            let least = if value < least { 0.5 * 2.0_f64.powf(value.log2().floor()) } else { least };
+            (low.max(least), high)
         }
         (Parameter::Beta, Some(boundaries)) => (0.0, boundaries.ceiling(view.map, value)),
         _ if value == 0.0 => (minimum, 0.1 * maximum),
@@ -132,6 +135,22 @@ mod tests {
         assert!(before.1.check().is_ok());
         view.scenario.parameters.alpha *= 2.0;
         assert_ne!(chart(&view, &boundaries), before);
+    }
+
+    #[test]
+    fn the_present_value_lies_in_the_range_to_sweep() {
+        let mut view = View { map: MapWindow::All, ..View::default() };
+        let mut session = Session::default();
+        for omega in [0.3, 1.3667, 2.1968, 4.0, 8.2, 25.0] {
+            view.scenario.parameters.omega = omega;
+            session.ask(&view.scenario);
+            for parameter in Parameter::ALL {
+                view.sweep.parameter = parameter;
+                let (from, to) = sweep_range(&view, &session);
+                let value = view.scenario.parameters.get(parameter);
+                assert!((from..=to).contains(&value), "{parameter:?} {omega}: {value} of {from} to {to}");
+            }
+        }
     }
 
     #[test]
