@@ -109,7 +109,7 @@ pub enum Layer {
     },
     /// A curve or points; what is not finite leaves a gap.
     Curve {
-        /// Name for tables.
+        /// Name for tables; without one it is a mere help to the eye.
         name: String,
         /// Name in the legend; empty for none.
         key: String,

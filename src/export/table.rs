@@ -33,7 +33,9 @@ pub fn table(figures: &[Figure], provenance: &Provenance) -> String {
         };
         for layer in &figure.layers {
             match layer {
-                Layer::Curve { name, points, .. } => points.iter().for_each(|place| point(name, *place)),
+                Layer::Curve { name, points, .. } if !name.is_empty() => {
+                    points.iter().for_each(|place| point(name, *place));
+                }
                 Layer::Band { name, points, .. } if !name.is_empty() => {
                     for (end, word) in [(1, "lowest"), (2, "highest")] {
                         let name = format!("{name}, {word}");

@@ -84,6 +84,7 @@ fn every_plot_of_every_tab_is_saved_in_light_colours_and_the_page_stays_as_it_is
             assert!(table.starts_with(&format!("# plot: {title}\n# program: Harvester Lab ")), "{table}");
             assert_eq!(table.contains("# sweep: omega from "), view.tab == Tab::Sweep);
             assert!(table.lines().filter(|line| !line.starts_with('#')).count() > 5, "{title}");
+            assert!(!table.lines().any(|line| line.starts_with(',')), "every row has a name: {title}");
             let (picture, again) = saved(&mut app, &context, title, Format::Png);
             assert!(picture.ends_with(".png") && again == text, "{picture}");
         }

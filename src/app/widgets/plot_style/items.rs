@@ -32,7 +32,9 @@ pub fn series<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [P
 pub fn series_on_picture<'a>(plot: &mut PlotUi<'a>, kind: Series, name: &str, curve: &'a [PlotPoint]) {
     let colour = theme::tokens_in(plot.ctx()).card.gamma_multiply(LANE);
     let (width, _) = style(kind.pen());
-    draw(plot, "", colour, Pen::Line(width + 2.0 * BESIDE), false, curve);
+    let lane = Pen::Line(width + 2.0 * BESIDE);
+    record(plot, "", None, colour, lane, curve);
+    draw(plot, "", colour, lane, false, curve);
     series(plot, kind, name, curve);
 }
 
