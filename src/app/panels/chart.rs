@@ -21,7 +21,7 @@ use crate::app::widgets::{
 };
 use crate::app::{colours, panels::response::microwatts};
 use crate::dynamics::Instability;
-use crate::dynamics::attractors::motion::{Cell, Motion};
+use crate::dynamics::attractors::motion::{Cell, Motion, Undecided};
 use crate::questions::chart::Quantity;
 use crate::questions::motion_chart::MotionChart;
 use crate::questions::multiplier_chart::MultiplierChart;
@@ -79,7 +79,11 @@ fn header(context: &mut Context<'_>, ui: &mut Ui) {
     let tokens = theme::tokens(ui);
     match context.view.layer {
         Quantity::Multiplier => multiplier_legend(ui, tokens),
-        Quantity::Motion => motion_legend(ui, tokens),
+        Quantity::Motion => {
+            let undecided = |cell: Cell| matches!(cell.motion, Motion::Undecided { .. });
+            let chart = context.studies.lanes.study::<MotionChart>();
+            motion_legend(ui, tokens, chart.is_some_and(|chart| known(chart).any(undecided)));
+        }
         layer @ (Quantity::VRms | Quantity::Power) => {
             let top = context.studies.lanes.study::<MotionChart>().map_or(0.0, |chart| highest(chart, layer));
             let (top, unit) = if layer == Quantity::VRms {
@@ -108,9 +112,10 @@ fn multiplier_legend(ui: &mut Ui, tokens: &Tokens) {
     swatches(ui, &entries);
 }
 
-fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
+/// What is `undecided` somewhere is named, too.
+fn motion_legend(ui: &mut Ui, tokens: &Tokens, undecided: bool) {
     let colour = |motion| Filling::Plain(colours::motion(motion, tokens));
-    let entries = [
+    let mut entries = vec![
         (colour(Motion::Periodic { periods: 1 }), tr("period 1")),
         (colour(Motion::Periodic { periods: 2 }), "2"),
         (colour(Motion::Periodic { periods: 3 }), tr("longer")),
@@ -119,15 +124,23 @@ fn motion_legend(ui: &mut Ui, tokens: &Tokens) {
         (colour(Motion::Escape { time: 0.0 }), tr("escape or contact")),
         (Filling::Hatching, tr("beyond a limit")),
     ];
+    if undecided {
+        let motion = Motion::Undecided { why: Undecided::EvidenceDisagrees };
+        entries.insert(entries.len() - 1, (colour(motion), tr("undecided")));
+    }
     swatches(ui, &entries);
+}
+
+/// The cells of a chart that are known.
+fn known(chart: &MotionChart) -> impl Iterator<Item = Cell> {
+    let (columns, rows) = chart.asked().size;
+    let cells = (0..rows).flat_map(move |row| (0..columns).map(move |column| (column, row)));
+    cells.filter_map(|(column, row)| chart.cell(column, row).flatten())
 }
 
 /// The largest value of a chart, in the unit of its cells.
 fn highest(chart: &MotionChart, layer: Quantity) -> f64 {
-    let (columns, rows) = chart.asked().size;
-    let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
-    let known = cells.filter_map(|(column, row)| chart.cell(column, row).flatten());
-    known.map(|cell| value(&cell, layer)).fold(0.0, f64::max)
+    known(chart).map(|cell| value(&cell, layer)).fold(0.0, f64::max)
 }
 
 fn value(cell: &Cell, layer: Quantity) -> f64 {
