@@ -67,7 +67,10 @@ pub(super) fn take(fields: &mut Map<String, Value>, takes: &[&str]) -> Result<Sc
     let mut described = part(&mut NAMES.iter());
     let ratios = damping_ratios(&mut described)?;
     let layered = layered(&described)?;
-    let described = Described { device: layered, ..read(&described)? };
+    // What the ratios decide must not be refused before they do.
+    let undamped = |device| Device { viscosity: 0.0, air_damping: 0.0, ..device };
+    let device = if ratios.is_some() { layered.map(undamped) } else { layered };
+    let described = Described { device, ..read(&described)? };
     let Looked { model, initial, t_end } = read(&part(&mut [MODEL].iter().chain(takes)))?;
     let mut scenario = Scenario { model, initial, t_end, ..Scenario::default() };
     described.put_into(&mut scenario)?;
@@ -230,6 +233,13 @@ mod tests {
         assert!((factors.parameters.alpha / two.parameters.alpha - 1.0).abs() < 1e-12);
         let one = damped(json!({"damping_ratio": 0.01})).expect("possible");
         assert!((ratios(&one).expect("a device")[0] / 0.01 - 1.0).abs() < 1e-12 && one.parameters.air == 0.0);
+        // The usual viscosity, of a long soft beam, would be too much for a short one: the ratio replaces it.
+        let short = json!({"beam_length": 0.02, "beam_mass": 0.001, "tip_mass": 0.0001, "youngs_modulus": 7e10,
+            "second_moment": 2e-13, "flux_density": 0, "frequency": 300, "resistance": 1e5,
+            "damping_ratio": [0.01]});
+        let short = taken(json!({"device": short, "scaling": "consistent"})).expect("possible");
+        let first = short.model.system(short.parameters).expect("a device").modes[0].omega;
+        assert!((short.parameters.alpha / (0.02 / first) - 1.0).abs() < 1e-12, "{}", short.parameters.alpha);
         let wrong = |fields: Value| taken(fields).expect_err("refused").to_string();
         let device = json!({"damping_ratio": [0.01, 0.001], "viscosity": 1e6});
         assert!(wrong(json!({"device": device})).starts_with("device.viscosity: the damping of the modes"));

@@ -1,12 +1,13 @@
 //! The device with a rectifier: against a closed form, against another integration, and its energy.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{PI, SQRT_2, TAU};
 
+use harvester_lab::dynamics::Measures;
 use harvester_lab::dynamics::attractors::rectified::{RectifiedBalance, Steady, settle_rectified};
 use harvester_lab::dynamics::integration::rectified::{RectifiedRun, RectifiedTotals};
 use harvester_lab::model::{ForceLaw, ParameterSet, Parameters, ReducedSystem};
 use harvester_lab::questions::solve;
-use harvester_lab::theory::Source;
+use harvester_lab::theory::{LinearResponse, Source};
 use serde_json::Value;
 
 fn system(set: ParameterSet, modes: usize, law: ForceLaw) -> ReducedSystem {
@@ -53,6 +54,36 @@ fn with_a_weak_coupling_the_power_is_the_published_one() {
     // Beyond the open-circuit voltage nothing flows.
     let (_, balance) = settled(&system, 1.01 * open);
     assert_eq!((balance.current, balance.rectifier, balance.switchings), (0.0, 0.0, 0.0));
+}
+
+#[test]
+fn a_store_that_is_never_reached_leaves_the_motion_with_open_electrodes() {
+    // Without a current and a leak any charge would stay; from rest there is none, and the linear device is a sine.
+    let devices = [
+        (0.005151232885184298, 15.398464587095692, 0.00019310849540929052, 3),
+        (0.005839108650569759, 12.202521272704232, 0.0003111881270497688, 1),
+        (1e-3, 4.0, 2e-4, 2),
+        (2e-2, 21.0, 1e-3, 2),
+    ];
+    for (alpha, omega, theta, modes) in devices {
+        let set =
+            ParameterSet { c0: 0.0, kappa: 0.0, beta: 0.002, alpha, omega, theta, ..Default::default() };
+        let system = system(set, modes, ForceLaw::Quadratic);
+        let open = LinearResponse::new(&system).expect("damped");
+        let (steady, balance) = settled(&system, 1000.0);
+        assert_eq!(steady, Steady::Repeats { periods: 1 }, "{omega}");
+        let Measures { v_rms, v_peak, tip, .. } = balance.measures;
+        // Peaks are read at nodes.
+        for (found, exact, close) in [
+            (v_rms * SQRT_2, open.voltage.norm(), 1e-7),
+            (v_peak, open.voltage.norm(), 1e-3),
+            (tip.1, open.tip().norm(), 1e-3),
+            (-tip.0, open.tip().norm(), 1e-3),
+        ] {
+            assert!((found / exact - 1.0).abs() < close, "{omega}: {found} {exact}");
+        }
+        assert!((balance.input / balance.viscous - 1.0).abs() < 1e-6, "{omega}: {balance:?}");
+    }
 }
 
 /// The same device by Runge and Kutta's classical method with small steps, which end where the circuit switches, found by

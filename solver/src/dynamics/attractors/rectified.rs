@@ -211,15 +211,17 @@ impl Follower<'_> {
         Ok((Some(RectifiedBalance::new(self.system, self.threshold, &from, &to, &totals)), to))
     }
 
-    /// The state so many periods later; `None` when the motion ends before.
-    fn map(&mut self, state: &[f64], periods: usize) -> Result<Option<Vec<f64>>, IntegrationError> {
+    /// The state so many periods later, and whether the circuit stayed open all the while; `None` when the motion ends
+    /// before.
+    fn map(&mut self, state: &[f64], periods: usize) -> Result<Option<(Vec<f64>, bool)>, IntegrationError> {
+        let mut totals = RectifiedTotals::default();
         self.trial.begin(state);
         for _ in 0..periods {
-            if self.trial.period(None)?.is_some() {
+            if self.trial.period(Some(&mut totals))?.is_some() {
                 return Ok(None);
             }
         }
-        Ok(Some(self.trial.state().to_vec()))
+        Ok(Some((self.trial.state().to_vec(), totals.switchings == 0)))
     }
 
     /// The stable cycle that the run approaches, with its periods, if there is one near its last states `recent`.
@@ -250,7 +252,7 @@ impl Follower<'_> {
         if away <= ARRIVED * size {
             return Ok(Some(cycle));
         }
-        let Some(next) = self.map(last, periods)? else { return Ok(None) };
+        let Some((next, _)) = self.map(last, periods)? else { return Ok(None) };
         let offset = DVector::from_iterator(last.len(), last.iter().zip(&cycle).map(|(a, b)| a - b));
         let expected: Vec<f64> = (derivative * offset).iter().zip(&cycle).map(|(a, b)| a + b).collect();
         let off = distance(&next, &expected, &self.scales);
@@ -262,15 +264,29 @@ impl Follower<'_> {
         distance(state, &vec![0.0; state.len()], &self.scales)
     }
 
+    /// What each entry of the state adds to the charge c v - sum of theta_k q_k, which stays while nothing conducts and
+    /// nothing leaks.
+    fn charge(&self) -> DVector<f64> {
+        let n = self.system.modes.len();
+        let mut row = DVector::zeros(self.scales.len());
+        for (entry, theta) in row.iter_mut().zip(&self.system.theta) {
+            *entry = -theta;
+        }
+        row[2 * n] = self.system.capacitance;
+        row
+    }
+
     /// Newton's iteration on the map of so many periods from `start`, and the map's derivative at its end.
     fn newton(&mut self, start: &[f64], periods: usize) -> Result<Option<Cycle>, IntegrationError> {
         let count = start.len();
         let mut state = start.to_vec();
         let mut before = f64::INFINITY;
+        let row = self.charge();
+        let charge = row.dot(&DVector::from_column_slice(start));
         for _ in 0..ITERATIONS {
             self.trial.begin(&state);
             state.copy_from_slice(self.trial.state());
-            let Some(image) = self.map(&state, periods)? else { return Ok(None) };
+            let Some((image, open)) = self.map(&state, periods)? else { return Ok(None) };
             let size = self.size(&state);
             let mut derivative = DMatrix::zeros(count, count);
             for j in 0..count {
@@ -278,7 +294,7 @@ impl Follower<'_> {
                 // Towards rest: a voltage at the threshold can only fall.
                 let step = DIFFERENCE * size * self.scales[j] * if state[j] > 0.0 { -1.0 } else { 1.0 };
                 moved[j] += step;
-                let Some(there) = self.map(&moved, periods)? else { return Ok(None) };
+                let Some((there, _)) = self.map(&moved, periods)? else { return Ok(None) };
                 let column = there.iter().zip(&image).map(|(a, b)| (a - b) / step);
                 derivative.set_column(j, &DVector::from_iterator(count, column));
             }
@@ -290,10 +306,17 @@ impl Follower<'_> {
                 return Ok(None);
             }
             before = before.min(residual);
-            let defect = DVector::from_iterator(count, image.iter().zip(&state).map(|(a, b)| a - b));
-            let Some(step) = (DMatrix::identity(count, count) - &derivative).lu().solve(&defect) else {
-                return Ok(None);
-            };
+            let mut defect = DVector::from_iterator(count, image.iter().zip(&state).map(|(a, b)| a - b));
+            let mut matrix = DMatrix::identity(count, count) - &derivative;
+            if open && self.system.parameters.kappa == 0.0 {
+                // There is a cycle for every charge: the one that belongs to the start's is meant.
+                let mut along = DVector::zeros(count);
+                along[count - 1] = 1.0 / self.system.capacitance;
+                let lacks = charge - row.dot(&DVector::from_column_slice(&state));
+                matrix += &along * row.transpose();
+                defect += along * lacks;
+            }
+            let Some(step) = matrix.lu().solve(&defect) else { return Ok(None) };
             for (value, step) in state.iter_mut().zip(step.iter()) {
                 *value += step;
             }
