@@ -116,7 +116,7 @@ fn has_an_end(settler: &Settler, forced: Option<&ForcedMotion>) -> bool {
 }
 
 /// Starts that differ from `initial` by rounding.
-fn beside(system: &ReducedSystem, initial: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+pub(super) fn beside(system: &ReducedSystem, initial: &[f64]) -> impl Iterator<Item = Vec<f64>> {
     let scales = scales(system);
     let by = BESIDE_BY * system.equilibrium.gap;
     (1..=BESIDE).map(move |k| {

@@ -8,6 +8,8 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
+use super::arrival::beside;
+use super::motion::Undecided;
 use crate::dynamics::integration::rectified::{RectifiedRun, RectifiedTotals};
 use crate::dynamics::integration::{IntegrationError, Measures, Outcome};
 use crate::dynamics::orbits::period_map::{distance, scales};
@@ -24,6 +26,11 @@ const LONGEST: usize = 8;
 /// Most excitation periods that a start is followed, and half of a record whose means are compared.
 const MOST_PERIODS: u64 = 12_000;
 const HALF_RECORD: u64 = 512;
+/// A cycle found after so many excitation periods may be a chance of a chaotic transient. It is one where a start beside
+/// the one asked for is then further away than this, relative to the size: so many of them are followed to their end, too.
+const LATE: u64 = 1000;
+const APART: f64 = 1e-3;
+const BESIDE: usize = 2;
 /// Largest difference of the means of both halves, relative.
 const AGREEMENT: f64 = 1e-3;
 /// Newton's iterations, the residual that ends them, and the step of differences, relative to the state's size.
@@ -53,6 +60,8 @@ pub enum Steady {
     Stationary,
     /// Neither was found.
     Undecided,
+    /// Starts that differ by less than rounding lead to different motions.
+    DependsOnRounding,
     /// The tip left.
     Escape,
     /// The magnets touched.
@@ -65,6 +74,7 @@ impl Say for Steady {
             Self::Repeats { periods } => said("period {periods}", &[("periods", periods)]),
             Self::Stationary => said("it does not repeat, its means stay", &[]),
             Self::Undecided => said("undecided: neither the cycle repeats nor the means stay", &[]),
+            Self::DependsOnRounding => said("undecided: {why}", &[("why", &Undecided::DependsOnRounding)]),
             Self::Escape => said("escape", &[]),
             Self::Contact => said("contact", &[]),
         }
@@ -136,6 +146,53 @@ pub fn settle_rectified(
     threshold: f64,
     initial: &[f64],
 ) -> Result<(Steady, Option<RectifiedBalance>, Vec<f64>), IntegrationError> {
+    let (settled, run) = follow(system, threshold, initial)?;
+    let late = matches!(settled.0, Steady::Repeats { .. }) && run.periods() >= LATE;
+    if !late || !parts(system, threshold, (initial, &run))? {
+        return Ok(settled);
+    }
+    let power = |settled: &Settled| settled.1.as_ref().map_or(0.0, |balance| balance.rectifier);
+    for moved in beside(system, initial).take(BESIDE) {
+        let (other, _) = follow(system, threshold, &moved)?;
+        if other.0 != settled.0 || !alike(power(&other), power(&settled)) {
+            return Ok((Steady::DependsOnRounding, None, settled.2));
+        }
+    }
+    Ok(settled)
+}
+
+/// What was found, its balance and a state on it.
+type Settled = (Steady, Option<RectifiedBalance>, Vec<f64>);
+
+/// Whether two means are the same, as far as means of records can be.
+fn alike(a: f64, b: f64) -> bool {
+    (a - b).abs() <= AGREEMENT * a.abs().max(b.abs())
+}
+
+/// Whether a start beside `initial` is elsewhere after as many periods as the `run` from there took.
+fn parts(
+    system: &ReducedSystem,
+    threshold: f64,
+    (initial, run): (&[f64], &RectifiedRun),
+) -> Result<bool, IntegrationError> {
+    let Some(moved) = beside(system, initial).next() else { return Ok(false) };
+    let mut other = RectifiedRun::new(system, threshold, &moved)?;
+    while other.periods() < run.periods() {
+        if other.period(None)?.is_some() {
+            return Ok(true);
+        }
+    }
+    let (scales, rest) = (scales(system), vec![0.0; initial.len()]);
+    let size = distance(run.state(), &rest, &scales);
+    Ok(distance(run.state(), other.state(), &scales) > APART * size)
+}
+
+/// What the one start leads to, and its run until that was known.
+fn follow(
+    system: &ReducedSystem,
+    threshold: f64,
+    initial: &[f64],
+) -> Result<(Settled, RectifiedRun), IntegrationError> {
     let mut follower = Follower {
         system,
         threshold,
@@ -146,14 +203,14 @@ pub fn settle_rectified(
     let ended = |outcome: Outcome, state: &[f64]| {
         let steady =
             if matches!(outcome, Outcome::Contact { .. }) { Steady::Contact } else { Steady::Escape };
-        Ok((steady, None, state.to_vec()))
+        (steady, None, state.to_vec())
     };
     let mut look = FIRST_LOOK;
     while follower.run.periods() < MOST_PERIODS {
         let mut recent = vec![follower.run.state().to_vec()];
         while follower.run.periods() < look || recent.len() <= LONGEST {
             if let Some(outcome) = follower.run.period(None)? {
-                return ended(outcome, follower.run.state());
+                return Ok((ended(outcome, follower.run.state()), follower.run));
             }
             recent.push(follower.run.state().to_vec());
             if recent.len() > LONGEST + 1 {
@@ -162,7 +219,7 @@ pub fn settle_rectified(
         }
         if let Some((state, periods)) = follower.cycle(&recent)? {
             let (balance, _) = follower.balance(&state, periods as u64)?;
-            return Ok((Steady::Repeats { periods }, balance, state));
+            return Ok(((Steady::Repeats { periods }, balance, state), follower.run));
         }
         look = follower.run.periods() + ((LATER * follower.run.periods() as f64) as u64).max(FIRST_LOOK / 2);
     }
@@ -170,11 +227,12 @@ pub fn settle_rectified(
     let (first, middle) = follower.balance(&state, HALF_RECORD)?;
     let (second, end) = follower.balance(&middle, HALF_RECORD)?;
     let (Some(first), Some(second)) = (first, second) else {
-        return ended(Outcome::Escaped { time: 0.0 }, &end);
+        return Ok((ended(Outcome::Escaped { time: 0.0 }, &end), follower.run));
     };
-    let alike = |a: f64, b: f64| (a - b).abs() <= AGREEMENT * a.abs().max(b.abs());
     let stays = alike(first.rectifier, second.rectifier) && alike(first.input, second.input);
-    Ok(if stays { (Steady::Stationary, Some(second), end) } else { (Steady::Undecided, None, end) })
+    let settled =
+        if stays { (Steady::Stationary, Some(second), end) } else { (Steady::Undecided, None, end) };
+    Ok((settled, follower.run))
 }
 
 /// A cycle, with the derivative of the map of its periods.
@@ -211,17 +269,15 @@ impl Follower<'_> {
         Ok((Some(RectifiedBalance::new(self.system, self.threshold, &from, &to, &totals)), to))
     }
 
-    /// The state so many periods later, and whether the circuit stayed open all the while; `None` when the motion ends
-    /// before.
-    fn map(&mut self, state: &[f64], periods: usize) -> Result<Option<(Vec<f64>, bool)>, IntegrationError> {
-        let mut totals = RectifiedTotals::default();
+    /// The state so many periods later; `None` when the motion ends before.
+    fn map(&mut self, state: &[f64], periods: usize) -> Result<Option<Vec<f64>>, IntegrationError> {
         self.trial.begin(state);
         for _ in 0..periods {
-            if self.trial.period(Some(&mut totals))?.is_some() {
+            if self.trial.period(None)?.is_some() {
                 return Ok(None);
             }
         }
-        Ok(Some((self.trial.state().to_vec(), totals.switchings == 0)))
+        Ok(Some(self.trial.state().to_vec()))
     }
 
     /// The stable cycle that the run approaches, with its periods, if there is one near its last states `recent`.
@@ -252,7 +308,7 @@ impl Follower<'_> {
         if away <= ARRIVED * size {
             return Ok(Some(cycle));
         }
-        let Some((next, _)) = self.map(last, periods)? else { return Ok(None) };
+        let Some(next) = self.map(last, periods)? else { return Ok(None) };
         let offset = DVector::from_iterator(last.len(), last.iter().zip(&cycle).map(|(a, b)| a - b));
         let expected: Vec<f64> = (derivative * offset).iter().zip(&cycle).map(|(a, b)| a + b).collect();
         let off = distance(&next, &expected, &self.scales);
@@ -286,7 +342,8 @@ impl Follower<'_> {
         for _ in 0..ITERATIONS {
             self.trial.begin(&state);
             state.copy_from_slice(self.trial.state());
-            let Some((image, open)) = self.map(&state, periods)? else { return Ok(None) };
+            let Some(image) = self.map(&state, periods)? else { return Ok(None) };
+            let open = self.trial.stayed_open();
             let size = self.size(&state);
             let mut derivative = DMatrix::zeros(count, count);
             for j in 0..count {
@@ -294,7 +351,7 @@ impl Follower<'_> {
                 // Towards rest: a voltage at the threshold can only fall.
                 let step = DIFFERENCE * size * self.scales[j] * if state[j] > 0.0 { -1.0 } else { 1.0 };
                 moved[j] += step;
-                let Some((there, _)) = self.map(&moved, periods)? else { return Ok(None) };
+                let Some(there) = self.map(&moved, periods)? else { return Ok(None) };
                 let column = there.iter().zip(&image).map(|(a, b)| (a - b) / step);
                 derivative.set_column(j, &DVector::from_iterator(count, column));
             }

@@ -50,6 +50,8 @@ pub struct RectifiedRun {
     circuit: Circuit,
     state: Vec<f64>,
     periods: u64,
+    /// Switchings of the circuit since it began.
+    switchings: usize,
     /// Longest time between two looks at the circuit.
     look: f64,
     largest_current: f64,
@@ -132,6 +134,7 @@ impl RectifiedRun {
             circuit: Circuit::Open,
             state: Vec::new(),
             periods: 0,
+            switchings: 0,
             look: std::f64::consts::TAU / (LOOKS * fastest),
             largest_current: 0.0,
             scratch: Scratch::default(),
@@ -154,7 +157,7 @@ impl RectifiedRun {
                 self.circuit = Circuit::Charging(sign);
             }
         }
-        self.periods = 0;
+        (self.periods, self.switchings) = (0, 0);
     }
 
     /// The present state, length 2N + 1, at a stroboscopic instant.
@@ -165,6 +168,11 @@ impl RectifiedRun {
     /// Excitation periods done.
     pub fn periods(&self) -> u64 {
         self.periods
+    }
+
+    /// Whether the circuit has stayed open since it began: no charge has moved.
+    pub fn stayed_open(&self) -> bool {
+        self.circuit == Circuit::Open && self.switchings == 0
     }
 
     /// Goes on for an excitation period, read into `totals` where they are given; an outcome when the motion ended.
@@ -226,6 +234,7 @@ impl RectifiedRun {
             }
         }
         self.periods += 1;
+        self.switchings += switchings;
         if let Some(totals) = totals {
             totals.switchings += switchings;
         }
