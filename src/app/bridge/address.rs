@@ -101,9 +101,10 @@ pub(super) fn watch(changed: fn()) {
     }
 }
 
-/// Takes the fragment out of the address: it does not say any more what is shown, and a reload should go on with that.
-pub(super) fn forget_fragment() {
-    if fragment().is_empty() {
+/// Takes this fragment out of the address: it does not say any more what is shown, and a reload should go on with that.
+/// Another one has come in the meantime and is about to be opened.
+pub(super) fn forget_fragment(opened: &str) {
+    if opened.is_empty() || fragment() != opened {
         return;
     }
     if let Some(history) = web_sys::window().and_then(|window| window.history().ok()) {

@@ -119,7 +119,7 @@ fn open_address() {
         let fragment = address::fragment();
         app.open_link(&fragment);
         if !app.is_embedded() {
-            keeper.opened((!fragment.is_empty()).then(|| app.fragment()));
+            keeper.opened((!fragment.is_empty()).then(|| (fragment, app.fragment())));
         }
     });
 }

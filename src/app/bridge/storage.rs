@@ -14,8 +14,8 @@ const PAUSE: f64 = 1.0;
 pub(super) struct Keeper {
     storage: Option<web_sys::Storage>,
     written: Option<String>,
-    /// The link in the address, as the app writes it.
-    opened: Option<String>,
+    /// The fragment of the address that was opened, and the same link as the app writes it.
+    opened: Option<(String, String)>,
     touched: bool,
     looked: f64,
 }
@@ -43,8 +43,8 @@ impl Keeper {
         self.touched = true;
     }
 
-    /// Says whether the address holds a link, and how the app would write it.
-    pub(super) fn opened(&mut self, link: Option<String>) {
+    /// Says whether the address holds a link: its fragment, and how the app would write it.
+    pub(super) fn opened(&mut self, link: Option<(String, String)>) {
         self.opened = link;
     }
 
@@ -68,9 +68,10 @@ impl Keeper {
     /// Writes now, unless nothing changed.
     pub(super) fn keep(&mut self, app: &App) {
         // Once the view has departed from the link in the address, a reload must not bring it back.
-        if self.opened.as_ref().is_some_and(|link| *link != app.fragment()) {
-            self.opened = None;
-            address::forget_fragment();
+        if self.opened.as_ref().is_some_and(|(_, link)| *link != app.fragment())
+            && let Some((fragment, _)) = self.opened.take()
+        {
+            address::forget_fragment(&fragment);
         }
         let Some(storage) = &self.storage else { return };
         let state = app.stored();

@@ -89,7 +89,7 @@ fn kind(needed: &str) -> Sentence {
         "bool" | "a boolean" => said("true or false", &[]),
         "a string" | "str" | "string" | "variant identifier" => said("a text in quotation marks", &[]),
         "a sequence" => said("a list", &[]),
-        other if other.starts_with("struct ") || other.starts_with("a map") => {
+        other if ["struct ", "a map", "internally tagged "].iter().any(|what| other.starts_with(what)) => {
             said("an object in braces", &[])
         }
         other if other.starts_with("enum ") || other.contains("variant") => {
