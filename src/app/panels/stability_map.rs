@@ -98,7 +98,10 @@ fn map(context: &mut Context<'_>, ui: &mut Ui, boundaries: &Boundaries) {
         plot.set_plot_bounds(PlotBounds::from_min_max([low, -0.02 * ceiling], [high, ceiling]));
         for (border, tongue) in exact.iter().zip(&boundaries.tongues) {
             if current && !border.is_empty() {
-                plot_style::area_above(plot, Series::Exact, border, ceiling);
+                // Where a border turns back there is an end of the tongue above it, too.
+                if border.is_sorted_by(|a, b| !(a.x > b.x)) || border.is_sorted_by(|a, b| !(a.x < b.x)) {
+                    plot_style::area_above(plot, Series::Exact, border, ceiling);
+                }
             } else {
                 plot_style::area_above(plot, Series::Coupled, &tongue.coupled, ceiling);
             }
