@@ -102,7 +102,7 @@ pub(super) fn watch(changed: fn()) {
 }
 
 /// Takes this fragment out of the address: it does not say any more what is shown, and a reload should go on with that.
-/// Another one has come in the meantime and is about to be opened.
+/// One that has come in the meantime stays, to be opened.
 pub(super) fn forget_fragment(opened: &str) {
     if opened.is_empty() || fragment() != opened {
         return;

@@ -68,9 +68,7 @@ impl Keeper {
     /// Writes now, unless nothing changed.
     pub(super) fn keep(&mut self, app: &App) {
         // Once the view has departed from the link in the address, a reload must not bring it back.
-        if self.opened.as_ref().is_some_and(|(_, link)| *link != app.fragment())
-            && let Some((fragment, _)) = self.opened.take()
-        {
+        if let Some((fragment, _)) = self.opened.take_if(|(_, link)| *link != app.fragment()) {
             address::forget_fragment(&fragment);
         }
         let Some(storage) = &self.storage else { return };

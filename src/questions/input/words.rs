@@ -124,6 +124,15 @@ mod tests {
         _pair: (f64, f64),
         #[serde(default, rename = "inner")]
         _inner: Option<Box<Inner>>,
+        #[serde(default, rename = "tagged")]
+        _tagged: Option<Tagged>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(tag = "kind")]
+    enum Tagged {
+        #[serde(rename = "empty")]
+        Empty {},
     }
 
     #[allow(dead_code, reason = "what is read here is of no interest")]
@@ -160,6 +169,11 @@ mod tests {
             (json!({"list": 3}), "list: 3 stands where a list is needed"),
             (json!({"pair": [1]}), "pair: 1 values stand where a list of 2 values is needed"),
             (json!({"inner": 3}), "inner: 3 stands where an object in braces is needed"),
+            (json!({"tagged": 3}), "tagged: 3 stands where an object in braces is needed"),
+            (
+                json!({"tagged": {"kind": "full"}}),
+                "tagged.kind: `full` is not available: allowed are `empty`",
+            ),
             (json!(["x"]), ""),
             (json!({"number": many}), ""),
             (json!({many.clone(): 1}), ""),

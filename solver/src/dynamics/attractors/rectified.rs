@@ -3,7 +3,8 @@
 //! The motion is followed from its start. Now and then Newton's iteration on the stroboscopic map looks for a cycle near
 //! the state reached; it counts as reached when it is stable and the run moves towards it as the map's derivative says.
 //! The numbers are then those of the cycle itself, however long the rest of the transient takes. Where no cycle of up to
-//! `LONGEST` periods is found, means over two halves of a record that agree are the answer, and otherwise there is none.
+//! `LONGEST` periods is found, means over two halves of a record that agree are the answer, and otherwise there is none; nor
+//! where starts that differ by rounding settle otherwise.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -26,9 +27,8 @@ const LONGEST: usize = 8;
 /// Most excitation periods that a start is followed, and half of a record whose means are compared.
 const MOST_PERIODS: u64 = 12_000;
 const HALF_RECORD: u64 = 512;
-/// A cycle found after so many excitation periods may be a chance of a chaotic transient. It is one where a start beside
-/// the one asked for is then further away than this, relative to the size: so many of them are followed to their end, too.
-const LATE: u64 = 1000;
+/// A cycle may be a chance of a chaotic transient: where a start beside the one asked for is further away than this by then,
+/// relative to the size, so many of them are followed to their end, too.
 const APART: f64 = 1e-3;
 const BESIDE: usize = 2;
 /// Largest difference of the means of both halves, relative.
@@ -147,8 +147,8 @@ pub fn settle_rectified(
     initial: &[f64],
 ) -> Result<(Steady, Option<RectifiedBalance>, Vec<f64>), IntegrationError> {
     let (settled, run) = follow(system, threshold, initial)?;
-    let late = matches!(settled.0, Steady::Repeats { .. }) && run.periods() >= LATE;
-    if !late || !parts(system, threshold, (initial, &run))? {
+    let repeats = matches!(settled.0, Steady::Repeats { .. });
+    if !repeats || !parts(system, threshold, (initial, &run))? {
         return Ok(settled);
     }
     let power = |settled: &Settled| settled.1.as_ref().map_or(0.0, |balance| balance.rectifier);
